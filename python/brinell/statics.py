@@ -153,7 +153,7 @@ def frequencies(bearing: str | os.PathLike[str] | Scenario, speed_rpm: float | N
     Parameters
     ----------
     bearing : str, path or Scenario
-        A bearing of the catalogue or of a public data set (``brinell bearing list``), a scenario, or a scenario's file.
+        A bearing by name (``brinell bearing list``), a scenario, or a scenario's file.
     speed_rpm : float, optional
         Needed with a name; the scenario's own by default.
 

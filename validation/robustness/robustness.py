@@ -1,11 +1,11 @@
 """What `brinell analyze` says of measured records that were made harder.
 
-    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing | sum | halves | told] [-v]
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing | sum | halves | told | together] [-v]
 
 RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
 harder: by the other sensor of the file, cut short, at wrong speeds, at speeds far off, resampled with noise, asked about other bearings;
 `sum` one of sums of two damaged bearings' records, `halves` how often the 95 % intervals of a record's two halves agree, `told` how often the
-speed that is taken is that of the whole record's lines. -v lists every wrong call. Needs NumPy and SciPy.
+speed that is taken is that of the whole record's lines, `together` a record's pieces one by one, by --together, and the whole. -v lists every wrong call. Needs NumPy and SciPy.
 """
 
 import collections
@@ -32,6 +32,8 @@ BEARINGS = [
 # Of the records' own bearing, a 6205.
 OWN = (9, 7.94, 39.04, 0)
 CUTS = {0.6: 2, 1.0: 3, 2.0: 2, 3.0: 1}
+# Seconds, and the RMS of white noise over the record's.
+PIECES = [(1.0, 0), (0.6, 0), (1.0, 2), (0.6, 2), (1.0, 3)]
 SPEEDS = [1, -1, 2, -2, 3, -3, 5, -5, 10, -10]
 # Of another number of poles, and of a shaft that turns otherwise.
 FAR = [20, -17, 50, -50]
@@ -106,10 +108,13 @@ def sums(all_records):
 
 
 def analyze(brinell, x, rate, speed, bearing):
+    """Of a signal, or of a list of records together."""
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "x.npz"
-        np.savez(path, signal=x.astype(np.float32))
-        command = [brinell, "analyze", path, "--rate", repr(rate), "--unit", "g", "--speed", repr(speed), *bearing, "--json", "-"]
+        many = isinstance(x, list)
+        files = [Path(folder) / f"{k}.npz" for k in range(len(x) if many else 1)]
+        for path, values in zip(files, x if many else [x]):
+            np.savez(path, signal=values.astype(np.float32))
+        command = [brinell, "analyze", *files, *(["--together"] if many else []), "--rate", repr(rate), "--unit", "g", "--speed", repr(speed), *bearing, "--json", "-"]
         done = subprocess.run(command, capture_output=True, text=True)
     return json.loads(done.stdout) if done.returncode == 0 else None
 
@@ -193,12 +198,61 @@ def of_speeds(folder, brinell):
         print(f"| {way} | {off[way]} of {count[way]} |")
 
 
+def of_pieces(folder, brinell, verbose):
+    """The first four seconds of each record in pieces, with noise."""
+    random = np.random.default_rng(2)
+    counts, off = collections.defaultdict(collections.Counter), collections.defaultdict(collections.Counter)
+    only = collections.Counter()
+
+    def jobs():
+        for r in records(folder):
+            if r["set"].startswith("uestc"):
+                continue
+            x = r["x"][: int(4 * r["rate"])]
+            for seconds, noise in PIECES:
+                n = int(seconds * r["rate"])
+                y = x + noise * np.std(x) * random.standard_normal(len(x))
+                yield r, (seconds, noise), y, [y[k * n : (k + 1) * n] for k in range(len(x) // n)]
+
+    def one(job):
+        r, row, x, pieces = job
+        known = r["rate"], r["speed"], r["bearing"]
+        ways = {"the whole": [x], "together": [pieces], "one by one": pieces}
+        found = {way: [analyze(brinell, what, *known) for what in each] for way, each in ways.items()}
+        for way, each in found.items():
+            for result in each:
+                how = outcome(result, r["truth"])
+                if verbose and how in ("wrong", "called"):
+                    print(f"{row}, {way}: {r['id']}: {result['verdict']['text']}", file=sys.stderr)
+        return row, r["truth"], found
+
+    with ThreadPoolExecutor(2) as pool:
+        for row, truth, found in pool.map(one, jobs()):
+            whole = found["the whole"][0]
+            alone = [outcome(result, truth) for result in found["one by one"]]
+            only[row] += outcome(found["together"][0], truth) == "right" and "right" not in alone
+            for way, each in found.items():
+                counts[row, way].update(outcome(result, truth) for result in each)
+                if whole and whole["shaft"]["found_in_signal"]:
+                    off[row, way].update(abs(f["shaft"]["used_hz"] / whole["shaft"]["used_hz"] - 1) > 0.003 for f in each if f)
+    print("| pieces | noise | judged | damaged: right / wrong / no damage called | sound: called damaged | speed more than 0.3 % off the whole's |")
+    print("| --- | --- | --- | --- | --- | --- |")
+    for ((seconds, noise), way), c in counts.items():
+        sound, told = c["called"] + c["not called"], off[(seconds, noise), way]
+        damaged = f"{c['right']} / {c['wrong']} / {c['missed']}"
+        print(f"| {seconds} s | {noise} | {way} | {damaged} | {c['called']} of {sound} | {told[True]} of {told[True] + told[False]} |")
+    print("told together and by no piece alone:", "; ".join(f"{seconds} s, noise {noise}: {only[seconds, noise]}" for seconds, noise in PIECES))
+
+
 def main():
     folder, brinell = Path(sys.argv[1]), sys.argv[2]
     rest = [a for a in sys.argv[3:] if a != "-v"]
     ways = rest[0].split(",") if rest else ["base", "sensor", "cut", "speed", "far", "rate", "bearing"]
     if ways == ["sum"]:
         of_sums(folder, brinell, "-v" in sys.argv)
+        return
+    if ways == ["together"]:
+        of_pieces(folder, brinell, "-v" in sys.argv)
         return
     if ways == ["halves"]:
         of_halves(folder, brinell)

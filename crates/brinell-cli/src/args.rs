@@ -126,7 +126,7 @@ pub(crate) struct SchemaArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BearingCommand {
-    /// List the catalogue, and the bearings of public data sets
+    /// List the catalogue, and the bearings known by their frequencies alone
     List {
         /// Print JSON
         #[arg(long)]

@@ -60,7 +60,7 @@ fn list() {
         };
         say!("{:<8} {}{ratings}", entry.name, entry.title);
     }
-    say!("\nOf public data sets, for `frequencies` and `analyze`; they are no presets of a scenario:");
+    say!("\nKnown by their frequencies alone, for `frequencies` and `analyze`; they are no presets of a scenario:");
     for known in KnownBearing::all() {
         if let KnownBearing::DataSet(bearing) = known {
             say!("{:<8} {}", bearing.name, bearing.source);
@@ -79,7 +79,7 @@ fn listed(known: KnownBearing) -> Value {
                 json[key] = entry.fact(key).into();
             }
         }
-        KnownBearing::DataSet(_) => json["kind"] = "data set".into(),
+        KnownBearing::DataSet(_) => json["kind"] = "frequencies".into(),
     }
     json
 }
@@ -105,10 +105,9 @@ fn shown(known: KnownBearing, class: Option<ClearanceClass>) -> Value {
             }
         }
         KnownBearing::DataSet(b) => {
-            json["rollers_per_row"] = b.elements.into();
-            json["pitch_diameter_mm"] = b.pitch_mm.into();
-            json["roller_diameter_mm"] = b.diameter_mm.into();
-            json["contact_angle_deg"] = b.contact_angle_deg.into();
+            for (key, value) in numbers(b) {
+                json[key] = value;
+            }
         }
     }
     json
@@ -174,14 +173,26 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
     }
 }
 
-/// Its one source prints every number.
+/// What its one source prints: the measures, or BPFO, BPFI, BSF and FTF over the shaft's frequency.
+fn numbers(bearing: &NamedBearing) -> Vec<(&'static str, Value)> {
+    let of = |numbers: Vec<(&'static str, Option<f64>)>| {
+        numbers.into_iter().filter_map(|(key, value)| Some((key, value?.into()))).collect()
+    };
+    let numbers: Vec<(&str, Value)> = match (bearing.measures, bearing.orders()) {
+        (Some(m), _) => of(vec![
+            ("pitch_diameter_mm", Some(m.pitch_mm)),
+            ("roller_diameter_mm", Some(m.diameter_mm)),
+            ("contact_angle_deg", Some(m.contact_angle_deg)),
+        ]),
+        (None, o) => {
+            of(vec![("bpfo_order", o.bpfo), ("bpfi_order", o.bpfi), ("bsf_order", o.bsf), ("ftf_order", o.ftf)])
+        }
+    };
+    [("rollers_per_row", bearing.elements.into())].into_iter().chain(numbers).collect()
+}
+
 fn show_named(bearing: &NamedBearing) {
-    for (name, value) in [
-        ("rolling elements", Value::from(bearing.elements)),
-        ("pitch_diameter_mm", bearing.pitch_mm.into()),
-        ("roller_diameter_mm", bearing.diameter_mm.into()),
-        ("contact_angle_deg", bearing.contact_angle_deg.into()),
-    ] {
+    for (name, value) in numbers(bearing) {
         say!("  {name:<18}  {:>10}", datum(&value));
     }
 }
@@ -218,7 +229,8 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         document(&Value::Object(values).to_string());
     } else {
         say!("Pure rolling at {} r/min, outer ring at rest", plain_number(rpm));
-        for (name, hz, meaning) in rows {
+        // Of a bearing known by its orders alone one may be missing.
+        for (name, hz, meaning) in rows.into_iter().filter(|row| row.1.is_finite()) {
             say!("  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}", hz / (rpm.abs() / 60.0));
         }
         say!("{source}");

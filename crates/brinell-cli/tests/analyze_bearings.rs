@@ -86,15 +86,21 @@ fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
         .exits(2)
         .complains(&["--bearing 9999: no bearing \"9999\"; there are "]);
     for (name, kind) in [
-        ("7205", "an angular contact ball bearing"),
-        ("22205", "a spherical roller bearing"),
-        ("30205", "a tapered roller bearing"),
-        ("51105", "a thrust ball bearing, whose races are passed Z / 2 times a turn each"),
+        ("3205", "a double row angular contact ball bearing"),
+        ("NA4905", "a needle roller bearing"),
+        ("29412", "a spherical roller thrust bearing, whose races are passed Z / 2 times a turn each"),
     ] {
         let told = brinell(folder.path(), &[&SIGNAL[..], &["--bearing", name]].concat()).exits(2);
-        let words = format!("none of those known by name is {kind}. For another give --rollers");
+        let words = format!("none of those known by name is {kind}. For another give what its maker's page tells");
         assert!(told.err.contains(&words) && !told.err.contains("did you mean"), "{}", told.err);
     }
+    // Of these types others are known: no other size is suggested.
+    for name in ["22210", "30205", "51105", "1206"] {
+        let told = brinell(folder.path(), &[&SIGNAL[..], &["--bearing", name]].concat()).exits(2);
+        assert!(told.err.contains("--rollers") && !told.err.contains("did you mean"), "{}", told.err);
+    }
+    let told = brinell(folder.path(), &[&SIGNAL[..], &["--bearing", "7205"]].concat()).exits(2);
+    told.complains(&["did you mean 7205-A?"]);
 }
 
 #[test]

@@ -280,7 +280,10 @@ fn regress_a_run_too_short_to_look_for_a_frequency_says_so() {
     call.says(&[why, " would do; pure rolling 131.05 Hz", " of the record, kurtosis"]);
     let summary = json(&here.join("o/summary.json"));
     let found = &summary["quantities"]["defect1.frequency"];
-    assert!(found["value"].is_null() && summary["defects"][0]["line"]["too_short"].as_str().unwrap().starts_with(why), "{summary}");
+    assert!(
+        found["value"].is_null() && summary["defects"][0]["line"]["too_short"].as_str().unwrap().starts_with(why),
+        "{summary}"
+    );
     let page = fs::read_to_string(here.join("o/report.html")).unwrap();
     assert!(page.contains(why) && page.contains("with the damage; load zone"));
 }

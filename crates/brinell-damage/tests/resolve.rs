@@ -136,7 +136,7 @@ fn regress_files_that_do_not_do_are_refused_in_words() {
         // Nothing is as dark as that, and everything darker than this.
         (&photo("0.02", ", threshold = 0.01"), "no damage"),
         (&photo("0.02", ", threshold = 0.999"), "all of it would be damage"),
-        (&photo("0.05", ""), "off the raceway's edge"),
+        (&photo("0.5", ""), "off the raceway's edge"),
         (&photo("2.0", ""), "past a full circle"),
         ("depth_map = { file = \"scan.csv\", ds_mm = 0.06, dz_mm = 0.06 }", "are missing"),
         (

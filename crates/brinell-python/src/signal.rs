@@ -281,7 +281,7 @@ impl Findings {
         let array = self.x.bind(py).try_readonly().map_err(bad_value)?;
         let x: Vec<f64> = array.as_array().iter().map(|v| self.factor * v).collect();
         let (verdict, warnings) = (self.analysis.verdict(), self.analysis.flaws.iter());
-        let warnings: Vec<String> = warnings.map(ToString::to_string).collect();
+        let warnings: Vec<String> = warnings.map(|(_, flaw)| flaw.to_string()).collect();
         Ok(py.detach(|| {
             analysis_html(&AnalysisReport::of_findings(&brinell_report::Findings {
                 signal: Analyzed { name: title, x: &x, rate: self.rate, analysis: &self.analysis },
@@ -395,7 +395,7 @@ pub(crate) fn analyze<'py>(
                 let stretch = Stretch { channel, from_s: *from_s, to_si: of.to_si };
                 beside_healthy(&mut analysis, scenario, stretch);
             }
-            let levels = Levels::of(&x, &of, &analysis, class);
+            let levels = Levels::of(&[&x], &of, &analysis, class);
             (analysis, levels)
         });
         let bands = (of.quantity == Quantity::Acceleration).then(|| velocity(&of.in_si(&x), rate_hz, shaft).ok());

@@ -102,10 +102,50 @@ impl Estimate {
         Estimate { value, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
     }
 
+    /// Of several records that say nothing of each other: the mean of their values to the power `exponent` (2 of an RMS),
+    /// each with its weight; their sum is 1.
+    pub fn pooled(each: &[(Self, f64)], exponent: i32) -> Self {
+        if let [(only, _)] = each {
+            return *only;
+        }
+        let raised = |v: f64| v.powi(exponent);
+        let back = |v: f64| if exponent == 1 { v } else { v.powf(1.0 / f64::from(exponent)) };
+        let mean: f64 = each.iter().map(|(e, w)| w * raised(e.value)).sum();
+        // To one side, of independent records.
+        let off = |end: &dyn Fn(Interval) -> f64| -> Option<f64> {
+            let squares = each.iter().map(|(e, w)| Some((w * (raised(end(e.interval?)) - raised(e.value))).powi(2)));
+            squares.sum::<Option<f64>>().map(f64::sqrt)
+        };
+        let ends = off(&|i| i.low).zip(off(&|i| i.high));
+        let freedom = each.iter().filter_map(|(e, _)| Some(e.interval?.freedom)).min().unwrap_or(0);
+        let interval =
+            ends.map(|(below, above)| Interval { low: back(mean - below), high: back(mean + above), freedom });
+        Estimate { value: back(mean), interval }
+    }
+
     /// Of the mean of a correlated series of positive numbers, such as the peaks after impacts; `None` of an empty one.
     pub fn of_mean(series: &[f64]) -> Option<Self> {
         let mean = series.iter().sum::<f64>() / series.len() as f64;
         let relative: Vec<f64> = series.iter().map(|x| x / mean - 1.0).collect();
         mean.is_finite().then(|| Self::positive(mean, scatter(&relative)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_n_alike_have_an_interval_narrower_by_the_root_of_n() {
+        let one = Estimate { value: 3.0, interval: Some(Interval { low: 2.8, high: 3.4, freedom: 4 }) };
+        let pooled = Estimate::pooled(&[(one, 0.25); 4], 1);
+        let interval = pooled.interval.unwrap();
+        assert!((pooled.value - 3.0).abs() < 1e-12);
+        assert!((interval.low - 2.9).abs() < 1e-12 && (interval.high - 3.2).abs() < 1e-12, "{interval:?}");
+        assert_eq!(Estimate::pooled(&[(one, 1.0)], 2), one);
+        // Root mean square, and no interval where one has none.
+        let bare = |value| Estimate { value, interval: None };
+        let rms = Estimate::pooled(&[(bare(1.0), 0.5), (bare(7.0), 0.5)], 2);
+        assert!((rms.value - 5.0).abs() < 1e-12 && rms.interval.is_none());
     }
 }

@@ -5,6 +5,7 @@
 //! half overlap.
 
 use super::error::{SignalError, check, check_squares, require};
+use super::lengths::fast_up_to;
 use super::spectrum::{FEWEST_SAMPLES, PowerAverage, SegmentTransform, Spectrum};
 use super::window::Window;
 
@@ -90,6 +91,18 @@ pub fn psd(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrum, SignalEr
     Ok(average.finish(fs, &transform.window, step))
 }
 
+/// The spectrum of several records, each with its own rate (Hz), in segments that no two records share: of at most
+/// `turns` periods of `hz`, as long as the shortest record allows, and fast to transform.
+pub(super) fn of_records(records: &[(&[f64], f64)], (turns, hz): (f64, f64)) -> Result<Spectrum, SignalError> {
+    let duration = |(x, fs): &(&[f64], f64)| x.len() as f64 / fs;
+    let shortest = records.iter().copied().min_by(|a, b| duration(a).total_cmp(&duration(b)));
+    let (x, fs) = shortest.unwrap_or((&[], 1.0));
+    let length = fast_up_to(((turns * fs / hz) as usize).min(x.len()));
+    let seconds = length as f64 / fs;
+    let each = records.iter().map(|(x, fs)| psd(x, *fs, &Segments::of((seconds * fs).round() as usize)));
+    Ok(Spectrum::averaged(each.collect::<Result<_, _>>()?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::distribution::chi_square_quantile;
@@ -133,6 +146,29 @@ mod tests {
             // 245 correlated bins: a standard error of some 0.02.
             assert!((share - 0.95).abs() < 0.06, "{window:?} {share}");
         }
+    }
+
+    /// Records of several lengths and rates, one of them shorter than a segment may be.
+    #[test]
+    fn analytic_records_are_averaged_in_segments_of_their_own() {
+        let noise = Noise::new(9).normals(60_000);
+        let records = [(&noise[..500], FS), (&noise[500..9_000], 1.01 * FS), (&noise[9_000..60_000], 0.99 * FS)];
+        let s = of_records(&records, (64.0, 100.0)).unwrap();
+        // 500 samples are the longest that all have.
+        assert_eq!((s.segment_length, s.frequency_step), (500, FS / 500.0));
+        let each = records.map(|(x, fs)| psd(x, fs, &Segments::of((500.0 * fs / FS).round() as usize)).unwrap());
+        assert_eq!(s.segments, each.iter().map(|s| s.segments).sum::<usize>());
+        let freedom: f64 = each.iter().map(|s| s.degrees_of_freedom).sum();
+        assert!((s.degrees_of_freedom / freedom - 1.0).abs() < 1e-12);
+        // Of white noise each bin scatters as chi-square with so many degrees of freedom.
+        let inner = &s.amplitude[5..240];
+        let power: Vec<f64> = inner.iter().map(|a| a * a).collect();
+        let mean = power.iter().sum::<f64>() / power.len() as f64;
+        let variance = power.iter().map(|p| (p / mean - 1.0).powi(2)).sum::<f64>() / power.len() as f64;
+        assert!((variance * freedom / 2.0 - 1.0).abs() < 0.3, "{variance} {freedom}");
+        // One alone is its own.
+        let one = of_records(&records[1..2], (64.0, 100.0)).unwrap();
+        assert_eq!(one, psd(records[1].0, records[1].1, &Segments::of(one.segment_length)).unwrap());
     }
 
     #[test]

@@ -46,6 +46,23 @@ impl Spectrum {
         bin as f64 * self.frequency_step
     }
 
+    /// The mean power of several spectra of the same bins, each weighted by its degrees of freedom.
+    pub(super) fn averaged(mut each: Vec<Self>) -> Self {
+        if each.len() == 1 {
+            return each.remove(0);
+        }
+        let freedom: f64 = each.iter().map(|s| s.degrees_of_freedom).sum();
+        let bins = each.iter().map(|s| s.amplitude.len()).min().unwrap_or(0);
+        let mean = |of: &dyn Fn(&Self) -> f64| each.iter().map(|s| s.degrees_of_freedom / freedom * of(s)).sum::<f64>();
+        Spectrum {
+            amplitude: (0..bins).map(|k| mean(&|s| s.amplitude[k] * s.amplitude[k]).sqrt()).collect(),
+            density: (0..bins).map(|k| mean(&|s| s.density[k])).collect(),
+            segments: each.iter().map(|s| s.segments).sum(),
+            degrees_of_freedom: freedom,
+            ..each[0].clone()
+        }
+    }
+
     /// RMS of the signal's part between two frequencies (Hz, both ends included, by whole bins), in its unit.
     pub fn band_rms(&self, low: f64, high: f64) -> f64 {
         let sum: f64 = (self.density.iter().enumerate())

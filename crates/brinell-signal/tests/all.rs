@@ -7,5 +7,6 @@ mod cases;
 mod drift;
 mod rig;
 mod signal_scipy;
+mod together;
 mod verdicts;
 mod wrong_speed;

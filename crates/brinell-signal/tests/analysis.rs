@@ -174,7 +174,7 @@ fn prop_a_stretch_that_repeats_is_judged_once() {
         let damage = Damage { order, modulation, jitter: 0.01, snr_db: -6.0 };
         let once = damaged(12_000.0, 1.0, 11, &damage);
         let (alone, repeated) = (look(&once, 12_000.0), look(&once.repeat(10), 12_000.0));
-        assert!(matches!(repeated.flaws[..], [Flaw::Repeats { every }] if (every - 1.0).abs() < 1e-9));
+        assert!(matches!(repeated.flaws[..], [(0, Flaw::Repeats { every })] if (every - 1.0).abs() < 1e-9));
         for (a, b) in alone.families.iter().zip(&repeated.families) {
             assert_eq!(a.finding, b.finding, "{}", a.name);
             assert!((a.score - b.score).abs() < 1e-6, "{}: {} once, {} ten times", a.name, a.score, b.score);

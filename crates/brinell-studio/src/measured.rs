@@ -150,7 +150,7 @@ pub(crate) fn judge(request: &Value, sent: &Arrays, arrays: &mut Arrays) -> Answ
     if known.options.exact && known.run.as_ref().is_some_and(|run| run.defects.is_empty()) {
         analysis.beside_healthy_run(None);
     }
-    known.warnings.extend(analysis.flaws.iter().map(ToString::to_string));
+    known.warnings.extend(analysis.flaws.iter().map(|(_, flaw)| flaw.to_string()));
     let spectrum = shown_spectrum(&x, rate).map_err(failed)?;
     let envelope = &analysis.view.spectrum;
     let mut answer = judged::verdict(&analysis);

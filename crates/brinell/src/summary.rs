@@ -409,10 +409,5 @@ struct Healthy {
 }
 
 fn beside(findings: &Findings, healthy: &Findings) -> Healthy {
-    Healthy {
-        channel: healthy.sensor_name(),
-        unit: "m/s^2",
-        rms: healthy.rms(),
-        ratio: findings.over_healthy(healthy),
-    }
+    Healthy { channel: healthy.sensor_name(), unit: "m/s^2", rms: healthy.rms(), ratio: findings.over_healthy(healthy) }
 }

@@ -21,8 +21,9 @@ use std::path::PathBuf;
     brinell analyze triaxial.csv --channel x --channel y --channel z --speed 1480 --bearing 6205    a row a channel\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
-    brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\
-    Bearings by name: `brinell bearing list`, the catalogue and those of public data sets (6205-2RS, 6203-2RS, NICE, ZA-2115, UER204); or a scenario file that has the bearing.\n\n\
+    brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n  \
+    brinell analyze records/ --together --rate 25600 --unit g --speed 1480 --bearing 6205    one verdict for all\n\n\
+    Bearings by name: `brinell bearing list`, the catalogue and those known by their frequencies alone (6205-2RS, ER-16K, ZA-2115, 22205, 30204 and others); or a scenario file that has the bearing.\n\n\
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
@@ -31,6 +32,9 @@ pub(crate) struct AnalyzeArgs {
     /// with 2 before 10
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// One verdict for all files: records of one machine by one sensor at one speed, whose evidence is averaged
+    #[arg(long, conflicts_with = "against")]
+    pub(crate) together: bool,
     #[command(flatten)]
     pub(crate) signal: SignalArgs,
     /// Shaft speed (the inner ring turns, the outer rests)

@@ -54,7 +54,7 @@ fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(
         }
         let Some(known) = KnownBearing::find(name) else {
             return Err(Failure::Usage(format!(
-                "--bearing {name}: {}. For another give --rollers, --diameter, --pitch and --contact-angle, or --bpfo and so on",
+                "--bearing {name}: {} (--rollers, --diameter, --pitch and --contact-angle, or --bpfo and so on)",
                 KnownBearing::unknown(name)
             )));
         };

@@ -4,7 +4,7 @@
 //! be sidebands or harmonics of the other's; the higher score leads.
 
 use super::diagnosis::Diagnosis;
-use super::json::as_json;
+use super::json::{as_json, of_file};
 use brinell::analysis::Family;
 use brinell_report::Table;
 use serde_json::{Value, json};
@@ -103,7 +103,6 @@ pub(super) fn to_json(results: &[Diagnosis], of: impl Fn(&Diagnosis) -> Value) -
     if let [only] = results {
         return of(only);
     }
-    let path = results.first().map(|r| r.measured.path.display().to_string());
     let lead = lead(results);
     let one = |result: &Diagnosis| {
         let mut one = of(result);
@@ -118,7 +117,7 @@ pub(super) fn to_json(results: &[Diagnosis], of: impl Fn(&Diagnosis) -> Value) -
     verdict["text"] = texts.collect::<Vec<_>>().join("\n").into();
     json!({
         "brinell": brinell::VERSION,
-        "file": { "path": path },
+        "file": results.first().map(|r| of_file(&r.measured)),
         "verdict": verdict,
         "leads": lead.map(|k| results[k].name.clone()),
         "bearings": bearings,

@@ -7,7 +7,7 @@ use super::{bearing, ends};
 use crate::failure::Failure;
 use brinell::analysis::{
     Analysis, AnalysisError, DefectOrders, FEWEST_REVOLUTIONS, Levels, Options, Quantity, Side, analyze as analysis_of,
-    compare, other_bearing, other_speed, velocity,
+    analyze_records, compare, other_bearing, other_speed, velocity,
 };
 use brinell::bearing::orders_of;
 use brinell::result::{Stretch, beside_healthy};
@@ -17,12 +17,16 @@ use std::path::Path;
 /// Speeds below, in r/min, are as many Hz of usual machines.
 const MAY_BE_HZ: f64 = 100.0;
 
-/// A result for each bearing that was named, or one. The file is read anew for each but the first.
-pub(super) fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Diagnosis>, Failure> {
+/// A result for each bearing that was named, or one. For each but the first it is read `again`.
+pub(super) fn results(
+    args: &AnalyzeArgs,
+    measured: Measured,
+    again: impl Fn() -> Result<Measured, Failure>,
+) -> Result<Vec<Diagnosis>, Failure> {
     let mut names = args.bearing.iter().map(String::as_str);
     let mut results = vec![examine(args, measured, names.next())?];
     for name in names {
-        results.push(examine(args, load(args, path)?, Some(name))?);
+        results.push(examine(args, again()?, Some(name))?);
     }
     ends::set_beside(&mut results);
     // What one of the bearings asked about is warned of is said of all.
@@ -80,9 +84,16 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     // The rest of a long signal is read beside the analysis of its beginning.
     let reading = measured.beyond.take().map(Beyond::start);
     let mut analysis = look(&measured, &options)?;
-    (measured.warnings).extend(analysis.flaws.iter().map(ToString::to_string));
+    let of_flaws: Vec<String> = (analysis.flaws.iter())
+        .filter_map(|(k, flaw)| match &measured.others[..] {
+            [] => Some(flaw.to_string()),
+            _ => Some(format!("{}: {flaw}", measured.records().nth(*k)?.path.display())),
+        })
+        .collect();
+    measured.warnings.extend(of_flaws);
     let velocity = velocities(&measured, shaft);
-    let levels = Levels::of(&measured.x, &measured.unit, &analysis, args.machine_class);
+    let all: Vec<&[f64]> = measured.records().map(|record| &record.x[..]).collect();
+    let levels = Levels::of(&all, &measured.unit, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;
     let last = match rest.as_mut() {
         Some(rest) => Some(look_at_last(&measured.path, &measured.channel, rest, measured.rate, &options)?),
@@ -132,7 +143,7 @@ pub(super) fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, Str
 }
 
 /// A warning, where the file states another speed than was given.
-fn stated_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
+pub(super) fn stated_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
     let (given, stated) = (args.speed?.rpm, measured.speed.as_ref()?);
     other_speed(&format!("--speed {given}"), given, stated.rpm, &stated.source, 0.01 * args.tolerance)
 }
@@ -178,9 +189,19 @@ pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
 }
 
 fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
-    analysis_of(&measured.x, measured.rate, options).map_err(|error| {
-        let hint = match (&error, &measured.repeats) {
+    let others = measured.others.iter().map(|(record, shaft)| (&record.x[..], *shaft));
+    let records: Vec<(&[f64], f64)> = std::iter::once((&measured.x[..], options.shaft)).chain(others).collect();
+    analyze_records(&records, measured.rate, options).map_err(|error| {
+        let (error, record, among) = match error {
+            AnalysisError::InRecord { number, why } => (*why, measured.records().nth(number - 1), true),
+            error => (error, None, false),
+        };
+        let record = record.unwrap_or(measured);
+        let hint = match (&error, &record.repeats) {
             (AnalysisError::TooShort { .. }, Some(why)) => format!("; {why}"),
+            (AnalysisError::TooShort { .. }, None) if among => {
+                ", however many are averaged: a shorter record does not tell a bearing's lines from the shaft's".into()
+            }
             // As many r/min would be enough as Hz.
             (AnalysisError::TooShort { revolutions, .. }, None)
                 if measured.speed.is_none() && 60.0 * revolutions >= FEWEST_REVOLUTIONS =>
@@ -190,7 +211,7 @@ fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
             }
             _ => String::new(),
         };
-        Failure::Usage(format!("{}, `{}`: {error}{hint}", measured.path.display(), measured.channel))
+        Failure::Usage(format!("{}, `{}`: {error}{hint}", record.path.display(), record.channel))
     })
 }
 
@@ -228,9 +249,9 @@ fn look_at_last(
     })
 }
 
-/// Bands of ISO 15242, where the signal is an acceleration.
+/// Bands of ISO 15242, where the signal is one acceleration.
 fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
-    if measured.unit.quantity != Quantity::Acceleration {
+    if measured.unit.quantity != Quantity::Acceleration || !measured.others.is_empty() {
         return None;
     }
     let x = measured.unit.in_si(&measured.x);

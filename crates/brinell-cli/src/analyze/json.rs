@@ -1,7 +1,7 @@
 //! An analysis as JSON: what the library says of it, and what file, channel and speed it is of.
 
 use super::diagnosis::Diagnosis;
-use super::measured::Rest;
+use super::measured::{Measured, Rest};
 use brinell::analysis::{HEADLINES, to_json};
 use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK};
 use serde_json::{Value, json};
@@ -13,15 +13,11 @@ pub(super) fn as_json(result: &Diagnosis) -> Value {
     value["brinell"] = brinell::VERSION.into();
     value["verdict"]["text"] = result.verdict_text().into();
     value["severity"] = result.levels.to_json(&m.unit);
-    value["file"] = json!({
-        "path": m.path.display().to_string(),
-        "channel": m.channel,
-        "start_s": m.start,
-        "notes": m.notes,
-        "warnings": m.warnings,
-        "speed": result.speed,
-        "bearing": result.bearing,
-    });
+    value["file"] = of_file(m);
+    value["file"]["notes"] = json!(m.notes);
+    value["file"]["warnings"] = json!(m.warnings);
+    value["file"]["speed"] = json!(result.speed);
+    value["file"]["bearing"] = json!(result.bearing);
     if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
         value["whole"] = json!({
             "samples": rest.samples,
@@ -44,6 +40,16 @@ pub(super) fn as_json(result: &Diagnosis) -> Value {
         });
     }
     value
+}
+
+/// What was analysed; of several records each.
+pub(super) fn of_file(m: &Measured) -> Value {
+    let one = |m: &Measured| json!({ "path": m.path.display().to_string(), "channel": m.channel, "start_s": m.start });
+    let mut file = one(m);
+    if !m.others.is_empty() {
+        file["records"] = m.records().map(one).collect();
+    }
+    file
 }
 
 /// Headline indicators of a whole long signal; its peak is the largest of all samples.

@@ -13,6 +13,7 @@ mod page;
 mod records;
 mod several;
 mod short;
+mod together;
 mod words;
 mod written;
 
@@ -21,10 +22,10 @@ pub(crate) use args::AnalyzeArgs;
 use crate::failure::Failure;
 use crate::say::complain;
 use brinell::analysis::SUPPLY_HZ;
-use examine::{load, results, turning};
+use examine::{results, turning};
 use files::{Files, files};
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use written::{earlier, put_json, put_pages};
 
@@ -47,24 +48,36 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             ));
         }
     }
+    let channels = args.signal.channel.len();
+    if args.together && channels > 1 {
+        return Err(Failure::Usage(format!(
+            "--together: {channels} channels, expected one: records are of one sensor"
+        )));
+    }
     match files(&args.files)? {
-        Files::One(path) if args.signal.channel.len() < 2 => one(args, &path),
+        Files::One(path) if channels < 2 => one(args, &[path]),
+        Files::Several(paths) if args.together => one(args, &paths),
         Files::One(path) => several::analyze(args, &[path]),
         Files::Several(paths) => several::analyze(args, &paths),
     }
 }
 
-/// Of one file, with all that is known of it.
-fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
-    let measured = match short::too_short(args, load(args, path)?)? {
-        // Its levels, as a row.
-        Ok(_) => return several::analyze(args, &[path.to_owned()]),
-        Err(measured) => measured,
-    };
-    let name = measured.path.display().to_string();
-    let same = |previous: &Value| previous.is_null() || previous["file"]["path"] == name.as_str();
-    let earlier = earlier(args, &[path.to_owned(), measured.path.clone()], same)?;
-    let results = results(args, path, measured)?;
+/// Of one file, or of several together, with all that is known of it.
+fn one(args: &AnalyzeArgs, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let again = || together::load(args, paths);
+    let mut measured = again()?;
+    if paths.len() == 1 {
+        measured = match short::too_short(args, measured)? {
+            // Its levels, as a row.
+            Ok(_) => return several::analyze(args, paths),
+            Err(measured) => measured,
+        };
+    }
+    let file = json::of_file(&measured);
+    let alike = |previous: &Value| ["path", "records"].iter().all(|key| previous.get(key) == file.get(key));
+    let same = |previous: &Value| previous.is_null() || alike(&previous["file"]);
+    let earlier = earlier(args, &[paths, &[measured.path.clone()]].concat(), same)?;
+    let results = results(args, measured, again)?;
     let json = ends::whole(&results);
     let lead = &results[ends::lead(&results).unwrap_or(0)];
     let mut written = Vec::new();

@@ -11,7 +11,8 @@ const LONGEST_NAME: usize = 24;
 pub(super) fn report(result: &Diagnosis) -> AnalysisReport {
     let m = &result.measured;
     // In whole, which the title may have shortened.
-    let mut notes = vec![format!("{}, channel {}", m.path.display(), m.channel)];
+    let mut notes: Vec<String> =
+        m.records().map(|record| format!("{}, channel {}", record.path.display(), record.channel)).collect();
     notes.extend(m.notes.iter().cloned());
     if let Some(other) = &result.against {
         notes.extend(other.measured.notes.iter().map(|note| format!("of {}: {note}", other.measured.path.display())));
@@ -45,7 +46,8 @@ fn name(m: &Measured) -> String {
     let own = m.path.file_stem().is_some_and(|n| n == "signals");
     let of = if own { m.path.parent() } else { None };
     let file = of.and_then(|f| f.file_name()).or_else(|| m.path.file_name()).map(|n| n.to_string_lossy().into_owned());
-    format!("{} · {}", shortened(&file.unwrap_or_default()), shortened(&m.channel))
+    let others = if m.others.is_empty() { String::new() } else { format!(" and {} more", m.others.len()) };
+    format!("{}{others} · {}", shortened(&file.unwrap_or_default()), shortened(&m.channel))
 }
 
 /// A name that fits a legend: of a long one its ends, which tell most.

@@ -162,7 +162,7 @@ fn leading(args: &AnalyzeArgs, rows: &[Row]) -> Option<String> {
 fn one(Record { args, path, .. }: &Record) -> Result<Found, Failure> {
     let found = match too_short(args, load(args, path)?)? {
         Ok(short) => Found::of_short(short),
-        Err(measured) => Found::of(&results(args, path, measured)?),
+        Err(measured) => Found::of(&results(args, measured, || load(args, path))?),
     };
     if !args.quiet {
         found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));

@@ -26,7 +26,8 @@ fn families(a: &Analysis) {
 /// Of each bearing the verdict, of the signal the rest: `result` is one of them.
 pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf]) {
     let (m, a) = (&result.measured, &result.analysis);
-    say!("{}, channel {}: {:.3} s, {} samples", m.path.display(), m.channel, a.duration(), a.samples);
+    let others = if a.records > 1 { format!(" and {} more", a.records - 1) } else { String::new() };
+    say!("{}{others}, channel {}: {:.3} s, {} samples", m.path.display(), m.channel, a.duration(), a.samples);
     for note in &m.notes {
         say!("  {note}");
     }

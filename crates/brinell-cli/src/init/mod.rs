@@ -239,7 +239,7 @@ fn bearing(args: &InitArgs) -> Result<Fitted, Failure> {
         (Some(entry), _) => entry,
         (None, Some(_)) => {
             return Err(Failure::Usage(format!(
-                "--bearing {name}: of this bearing of a data set only the defect frequencies are known; `brinell bearing list` names those of the catalogue"
+                "--bearing {name}: of this bearing only the defect frequencies are known (`brinell frequencies`, `analyze`); `brinell bearing list` names those of the catalogue"
             )));
         }
         (None, None) => return Err(unknown()),

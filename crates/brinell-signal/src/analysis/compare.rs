@@ -168,7 +168,7 @@ pub(super) fn indicators_in(range: Option<Band>, side: Side) -> Vec<(Indicator, 
         // As often as the other is sampled: between its samples peaks are missed.
         let each = (0.5 * fs / range.high).floor().max(1.0);
         let x: Vec<f64> = x[end..x.len() - end].iter().copied().step_by(each as usize).collect();
-        Some(super::indicators(&x, fs / each / side.analysis.shaft))
+        Some(super::indicators(&[&x], fs / each / side.analysis.shaft))
     };
     range.and_then(inside).unwrap_or_else(|| side.analysis.indicators.clone())
 }

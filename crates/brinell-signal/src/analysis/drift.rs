@@ -161,10 +161,10 @@ pub(super) fn by_shaft(x: &[f64], fs: f64, options: &Options) -> Option<Drift> {
     stretches.drift(&orders, "shaft", true).map(|found| found.1)
 }
 
-/// The same by the lines of a defect frequency in the envelopes of all bands: of the one that gains most.
+/// The same of one record by the lines of a defect frequency in the envelopes of all bands: of the one that gains most.
 pub(super) fn by_families(envelopes: &Envelopes, options: &Options) -> Option<Drift> {
-    let values: Vec<&[f64]> = envelopes.each.iter().map(|e| &e.1.values[..]).collect();
-    let stretches = Stretches::of(&values, envelopes.rate, options)?;
+    let values: Vec<&[f64]> = envelopes.each.iter().map(|e| &e.1[0].values[..]).collect();
+    let stretches = Stretches::of(&values, envelopes.rates[0], options)?;
     let drifts = (options.orders.defect_frequencies()).filter_map(|(_, name, order)| {
         let orders: Vec<f64> = (1..=HARMONICS).map(|h| h as f64 * order).collect();
         stretches.drift(&orders, name, false)

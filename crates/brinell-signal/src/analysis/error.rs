@@ -20,6 +20,14 @@ pub enum AnalysisError {
         /// The least that would do, Hz.
         needed_hz: f64,
     },
+    /// One of several records.
+    #[error("record {number}: {why}")]
+    InRecord {
+        /// Which, counted from 1.
+        number: usize,
+        /// What is wrong with it.
+        why: Box<AnalysisError>,
+    },
     /// Too few revolutions.
     #[error(
         "{seconds:.4} s are {revolutions:.2} revolutions of the shaft; it takes {} s or more, {FEWEST_REVOLUTIONS} revolutions",

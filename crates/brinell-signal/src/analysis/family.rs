@@ -20,7 +20,7 @@ use super::together::{HARMONICS, Highest, Place, Together};
 
 /// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than
 /// [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines are less high over the noise, and chance lines hardly
-/// less: the limit does not fall with them.
+/// less: the limit does not fall with them. Of several such records chance lines are lower, and it does ([`high`]).
 pub(super) const SCORE: f64 = 14.5;
 /// Score below which lines are not told from noise, however long the record: bands that one impact excites are not
 /// independent.
@@ -299,8 +299,15 @@ struct Limits {
     faint: f64,
 }
 
+/// The score from which lines are high, where they rise over the noise by `rise` times what they do in long segments:
+/// that of lines which would reach [`SCORE`] there.
+fn high(rise: f64) -> f64 {
+    let each = SCORE / HARMONICS as f64;
+    if rise < 1.0 { HARMONICS as f64 * (rise * each.exp_m1()).ln_1p() } else { SCORE }
+}
+
 /// Those of a part, where noise reaches a score of `of_noise`.
-fn limits(component: Component, of_noise: f64, options: &Options) -> Limits {
+fn limits(component: Component, of_noise: f64, rise: f64, options: &Options) -> Limits {
     let noise = of_noise.max(LEAST_SCORE);
     let faint = match component {
         Component::Cage => f64::INFINITY,
@@ -308,7 +315,7 @@ fn limits(component: Component, of_noise: f64, options: &Options) -> Limits {
         Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
         _ => FAINT,
     };
-    Limits { noise, limit: SCORE.max(noise), faint }
+    Limits { noise, limit: high(rise).max(noise), faint }
 }
 
 /// A family where its score is highest, from so far below to so far above pure rolling, relative.
@@ -319,7 +326,8 @@ fn within(
     (component, name, expected): (Component, &'static str, f64),
     (behind, ahead): (f64, f64),
 ) -> Family {
-    let Limits { noise, limit, faint } = limits(component, HARMONICS as f64 * together.noise.ln(), options);
+    let Limits { noise, limit, faint } =
+        limits(component, HARMONICS as f64 * together.noise.ln(), together.rise, options);
     let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
     let steps = ((ahead + behind) / step) as usize;
     let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));

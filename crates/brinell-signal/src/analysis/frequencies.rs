@@ -7,6 +7,7 @@
 
 use super::AnalysisError;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// What can be damaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -185,77 +186,64 @@ impl DefectOrders {
     }
 }
 
-/// A bearing of a public data set.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A bearing of a public data set, a paper or a maker's table, known by its frequencies alone.
+#[derive(Debug, Clone, PartialEq)]
 pub struct NamedBearing {
     /// Name that a command takes.
     pub name: &'static str,
     /// Rolling elements in a row.
     pub elements: usize,
-    /// Their diameter, mm.
+    /// Their measures, where a source prints them.
+    pub measures: Option<Measures>,
+    /// Its orders.
+    pub orders: DefectOrders,
+    /// Who printed these numbers.
+    pub source: &'static str,
+}
+
+/// What with the number of elements makes defect frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measures {
+    /// Diameter of the rolling elements, mm.
     pub diameter_mm: f64,
     /// Pitch diameter, mm.
     pub pitch_mm: f64,
     /// Contact angle, degrees.
     pub contact_angle_deg: f64,
-    /// Who printed these numbers.
-    pub source: &'static str,
 }
 
-const INCH: f64 = 25.4;
-
-/// Bearings of public data sets, with what their defect frequencies follow from.
-pub const NAMED: [NamedBearing; 5] = [
-    NamedBearing {
-        name: "6205-2RS",
-        elements: 9,
-        diameter_mm: 0.3126 * INCH,
-        pitch_mm: 1.537 * INCH,
-        contact_angle_deg: 0.0,
-        source: "SKF 6205-2RS JEM, drive end: Case Western Reserve University Bearing Data Center, bearing information",
-    },
-    NamedBearing {
-        name: "6203-2RS",
-        elements: 8,
-        diameter_mm: 0.2656 * INCH,
-        pitch_mm: 1.122 * INCH,
-        contact_angle_deg: 0.0,
-        source: "SKF 6203-2RS JEM, fan end: Case Western Reserve University Bearing Data Center, bearing information",
-    },
-    NamedBearing {
-        name: "NICE",
-        elements: 8,
-        diameter_mm: 0.235 * INCH,
-        pitch_mm: 1.245 * INCH,
-        contact_angle_deg: 0.0,
-        source: "NICE bearing: E. Bechhoefer, MFPT bearing fault data set (2013)",
-    },
-    NamedBearing {
-        name: "ZA-2115",
-        elements: 16,
-        diameter_mm: 0.331 * INCH,
-        pitch_mm: 2.815 * INCH,
-        contact_angle_deg: 15.17,
-        source: "Rexnord ZA-2115: H. Qiu et al., J. Sound Vib. 289 (2006) 1066-1090 (IMS run-to-failure data)",
-    },
-    NamedBearing {
-        name: "UER204",
-        elements: 8,
-        diameter_mm: 7.92,
-        pitch_mm: 34.55,
-        contact_angle_deg: 0.0,
-        source: "LDK UER204: B. Wang et al., IEEE Trans. Reliab. 69 (2020) 401-412 (XJTU-SY data)",
-    },
-];
+/// The bearings of `frequencies.csv`, in its order.
+pub static NAMED: LazyLock<Vec<NamedBearing>> = LazyLock::new(|| {
+    let rows = include_str!("frequencies.csv").lines().filter(|line| !line.starts_with('#')).skip(1);
+    rows.map(|row| NamedBearing::of_row(row).unwrap_or_else(|| panic!("frequencies.csv: {row}"))).collect()
+});
 
 impl NamedBearing {
+    fn of_row(row: &'static str) -> Option<Self> {
+        let mut cells = row.splitn(10, ';');
+        let name = cells.next()?;
+        let elements = cells.next()?.parse().ok()?;
+        let mut number = || cells.next().and_then(|cell| cell.parse().ok());
+        let measures: [Option<f64>; 3] = [number(), number(), number()];
+        let [bpfo, bpfi, bsf, ftf] = [number(), number(), number(), number()];
+        let (measures, orders) = match measures {
+            [Some(diameter_mm), Some(pitch_mm), Some(contact_angle_deg)] => (
+                Some(Measures { diameter_mm, pitch_mm, contact_angle_deg }),
+                DefectOrders::of_geometry(elements, diameter_mm, pitch_mm, contact_angle_deg)?,
+            ),
+            _ => (None, DefectOrders { ftf, bpfo: Some(bpfo?), bpfi: Some(bpfi?), bsf }),
+        };
+        Some(NamedBearing { name, elements, measures, orders, source: cells.next()? })
+    }
+
     /// The bearing whose name begins alike; case, spaces and hyphens do not matter, and `6205` or `LDK UER204` will do.
     pub fn find(name: &str) -> Option<&'static Self> {
         let plain = |text: &str| -> String {
             (text.chars().filter(|c| c.is_alphanumeric())).flat_map(char::to_lowercase).collect()
         };
         let wanted = plain(name);
-        let maker = |known: &str| ["skf", "ldk", "rexnord"].iter().any(|m| wanted == format!("{m}{known}"));
+        let makers = ["skf", "ldk", "rexnord", "mb", "fag", "nsk", "ntn"];
+        let maker = |known: &str| makers.iter().any(|m| wanted == format!("{m}{known}"));
         NAMED.iter().find(|b| {
             let known = plain(b.name);
             let short = known.trim_end_matches("2rs");
@@ -265,8 +253,7 @@ impl NamedBearing {
 
     /// Its orders.
     pub fn orders(&self) -> DefectOrders {
-        DefectOrders::of_geometry(self.elements, self.diameter_mm, self.pitch_mm, self.contact_angle_deg)
-            .unwrap_or_default()
+        self.orders
     }
 }
 
@@ -300,5 +287,45 @@ mod tests {
             near(o.bsf.map(|b| 2.0 * b), element);
         }
         assert!(NamedBearing::find("6").is_none() && NamedBearing::find("").is_none());
+    }
+
+    /// Frequencies that the sources of measures print beside them, or others of the same bearing.
+    #[test]
+    fn lit_orders_printed_beside_measures() {
+        for (name, bpfo, bpfi, off) in [
+            // Forbes 2012; FTF and BSF follow.
+            ("ER-16K", 3.572, 5.428, 2e-4),
+            ("MB ER16K", 3.572, 5.428, 2e-4),
+            // The page of the data.
+            ("MAFAULDA", 2.998, 5.002, 2e-4),
+            // The maker's multipliers of the next size, which has the same outer ring.
+            ("ER-10K", 3.048, 4.95, 2e-3),
+        ] {
+            let o = NamedBearing::find(name).unwrap().orders();
+            assert!((o.bpfo.unwrap() / bpfo - 1.0).abs() < off, "{name} {o:?}");
+            assert!((o.bpfi.unwrap() / bpfi - 1.0).abs() < off, "{name} {o:?}");
+        }
+    }
+
+    /// What is printed fits together: BPFO and BPFI add up to Z, BPFO is Z FTF, and (1 - g^2) / (2 BSF) is d/D, which
+    /// with g = (d/D) cos a leaves an angle that such bearings have.
+    #[test]
+    fn analytic_printed_orders_fit_together() {
+        for b in NAMED.iter() {
+            let DefectOrders { ftf, bpfo, bpfi, bsf } = b.orders();
+            let (bpfo, bpfi, z) = (bpfo.unwrap(), bpfi.unwrap(), b.elements as f64);
+            assert!((bpfo + bpfi - z).abs() < 3e-3, "{}", b.name);
+            assert!((ftf.unwrap() * z - bpfo).abs() < 6e-4 * z, "{}", b.name);
+            let g = (bpfi - bpfo) / z;
+            // A thrust bearing's.
+            if g == 0.0 {
+                continue;
+            }
+            if let Some(bsf) = bsf {
+                let cosine = 2.0 * bsf * g / (1.0 - g * g);
+                assert!((40.1_f64.to_radians().cos()..1.005).contains(&cosine), "{}: {cosine}", b.name);
+            }
+            assert!(b.source.len() > 30 && (0.08..0.35).contains(&g), "{}", b.name);
+        }
     }
 }

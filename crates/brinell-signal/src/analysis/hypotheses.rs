@@ -4,10 +4,10 @@
 use super::drift::{self, Drift};
 use super::family::{Family, Finding};
 use super::known_lines::ShaftLines;
-use super::together::{Envelopes, Shaft};
+use super::together::{Envelopes, Paced, Shaft};
 use super::verdict::Record;
 use super::{AnalysisError, Options, bands};
-use crate::{Band, Transformed};
+use crate::Band;
 
 /// How well the shaft's own lines tell its speed, relative: no less in a short record, where a comb placed within a bin
 /// would slide onto lines of damage at its higher orders.
@@ -36,18 +36,14 @@ pub(super) struct Best {
 }
 
 /// Tries them.
-pub(super) fn best(
-    transformed: &Transformed,
-    evidence: SpeedEvidence,
-    options: &Options,
-) -> Result<Best, AnalysisError> {
-    let range = bands::range(transformed.sample_rate(), options)?;
+pub(super) fn best(records: &[Paced], evidence: SpeedEvidence, options: &Options) -> Result<Best, AnalysisError> {
+    let range = bands::range(records[0].0.sample_rate(), options)?;
     let (shaft, tolerance, shaft_lines) = match evidence.lines {
         Some(found) => (found.speed, SHAFT_KNOWN * found.speed, found.orders),
         None => (options.shaft, 0.0, Vec::new()),
     };
     let known = Shaft { hz: shaft, tolerance };
-    let envelopes = Envelopes::of(transformed, range, shaft, options)?;
+    let envelopes = Envelopes::of(records, range, shaft, options)?;
     let drift = match evidence.drift {
         None if shaft_lines.is_empty() && evidence.may_drift => drift::by_families(&envelopes, options),
         drift => drift,
@@ -59,7 +55,7 @@ pub(super) fn best(
     }
     best.try_drift(options)?;
     if options.band.is_none() && !options.exact && !best.record.is_damage() {
-        best.try_lower(transformed, range, tolerance)?;
+        best.try_lower(records, range, tolerance)?;
     }
     Ok(best)
 }
@@ -104,10 +100,10 @@ impl Best {
     }
 
     /// At a high sample rate bands of mere noise hide those in which impacts ring.
-    fn try_lower(&mut self, transformed: &Transformed, range: Band, tolerance: f64) -> Result<(), AnalysisError> {
+    fn try_lower(&mut self, records: &[Paced], range: Band, tolerance: f64) -> Result<(), AnalysisError> {
         let known = Shaft { hz: self.record.shaft, tolerance };
         for part in bands::lower(range) {
-            let envelopes = Envelopes::of(transformed, part, known.hz, &self.record.options)?;
+            let envelopes = Envelopes::of(records, part, known.hz, &self.record.options)?;
             let record = Record::of(&envelopes, known, &self.record.options)?;
             if record.is_damage() {
                 (self.record, self.envelopes) = (record, envelopes);

@@ -34,6 +34,7 @@ pub fn to_json(
             "unit": unit.name,
             "quantity": unit.quantity.words().to_lowercase(),
             "sample_rate_hz": analysis.sample_rate,
+            "records": analysis.records,
             "samples": analysis.samples,
             "duration_s": analysis.duration(),
             "mean_removed": analysis.mean,
@@ -44,7 +45,7 @@ pub fn to_json(
             "found_in_signal": !analysis.shaft_lines.is_empty(),
             "harmonics_found": analysis.shaft_lines,
         },
-        "flaws": analysis.flaws.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "flaws": analysis.flaws.iter().map(|(_, flaw)| flaw.to_string()).collect::<Vec<_>>(),
         "drift": analysis.drift.as_ref().map(|d| {
             let point = |(t, hz): (f64, f64)| json!({ "at_s": t, "rpm": 60.0 * hz });
             json!({

@@ -4,8 +4,8 @@ use super::running_median::running_median;
 use super::together::{FLOOR, MAINS_HZ, REVOLUTIONS};
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
-use crate::lengths::fast_up_to;
-use crate::{Segments, parallel, peak_near, psd};
+use crate::psd::of_records;
+use crate::{parallel, peak_near};
 
 /// Chance under noise at which a peak counts as a line.
 const LEVEL: f64 = 1e-4;
@@ -50,11 +50,12 @@ pub(super) struct ShaftLines {
 }
 
 /// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where few are detected there and far more
-/// of a comb beyond it, there: the speed given is then wrong. `None` where they do not tell it.
+/// of a comb beyond it, there: the speed given is then wrong. `None` where they do not tell it. Each record has its rate
+/// (Hz), as if all turned alike.
 ///
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
-pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
-    let lines = Lines::of(x, fs, options)?;
+pub(super) fn shaft(records: &[(&[f64], f64)], options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
+    let lines = Lines::of(records, options)?;
     let told = lines.dense(lines.chosen_comb());
     Ok(told.is_own().then(|| lines.told_by(&told)))
 }
@@ -62,13 +63,13 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<Shaf
 /// The sample rate of an instrument at which lines are the shaft's at the speed given, where they tell no speed at the
 /// rate given; and how many of ten they are.
 pub(super) fn other_rate(x: &[f64], fs: f64, options: &Options) -> Result<Option<(f64, usize)>, AnalysisError> {
-    let lines = Lines::of(x, fs, options)?;
+    let lines = Lines::of(&[(x, fs)], options)?;
     let given = lines.chosen_comb();
     if lines.is_whole(&given, FEWEST_FAR) {
         return Ok(None);
     }
     let at = |rate: f64| -> Result<Option<(f64, Comb)>, AnalysisError> {
-        let mut lines = Lines::of(x, rate, options)?;
+        let mut lines = Lines::of(&[(x, rate)], options)?;
         // Those that are the mains' at the rate given.
         let (given_hz, width) = (fs / rate, 2.0 * lines.step * fs / rate);
         lines.each.retain(|(f, _)| !near_mains(f * given_hz, width));
@@ -114,10 +115,10 @@ impl Comb {
 }
 
 impl<'a> Lines<'a> {
-    fn of(x: &[f64], fs: f64, options: &'a Options) -> Result<Self, AnalysisError> {
+    /// Of records, each with its rate, Hz.
+    fn of(records: &[(&[f64], f64)], options: &'a Options) -> Result<Self, AnalysisError> {
         let shaft = options.shaft;
-        let length = fast_up_to(((REVOLUTIONS * fs / shaft) as usize).min(x.len()));
-        let mut spectrum = psd(x, fs, &Segments::of(length))?;
+        let mut spectrum = of_records(records, (REVOLUTIONS, shaft))?;
         let step = spectrum.frequency_step;
         spectrum.amplitude.truncate(((OF_COMB + 1) as f64 * (1.0 + FARTHEST) * shaft / step) as usize);
         let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
@@ -292,7 +293,7 @@ mod tests {
 
     fn speed(given: f64, sines: &[f64]) -> Option<f64> {
         let (x, options) = record(given, sines);
-        shaft(&x, FS, &options).unwrap().map(|s| s.speed)
+        shaft(&[(&x, FS)], &options).unwrap().map(|s| s.speed)
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use drift::Drift;
 pub use elsewhere::Elsewhere;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Finding, Harmonic, Sidebands};
-pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, Wording, most_elements};
+pub use frequencies::{Component, DefectOrders, Measures, NAMED, NamedBearing, Wording, most_elements};
 pub use json::to_json;
 pub use levels::Levels;
 pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
@@ -63,7 +63,7 @@ use crate::parallel::join;
 use crate::{Blocks, Estimate, Indicator, Kurtogram, Segments, Spectrum, Transformed, VelocityBands, kurtogram, psd};
 use error::LARGEST;
 use hypotheses::{Best, SpeedEvidence};
-use together::Envelopes;
+use together::{Envelopes, Paced};
 use verdict::Record;
 
 /// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
@@ -79,44 +79,58 @@ const LONGEST: usize = 1 << 18;
 /// [`AnalysisError`] where a sample is not finite, the signal, or the stretch that it repeats, is constant or shorter
 /// than [`FEWEST_REVOLUTIONS`] revolutions, or sampled too slowly for the defect frequencies, or an option is out of range.
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
+    analyze_records(&[(x, options.shaft)], fs, options)
+}
+
+/// Analyses several records of one machine by one sensor, each with the shaft's speed in it (Hz); a frequency of the
+/// result is at the speed of the options. Each power spectrum is averaged over the records, in segments as long as the
+/// shortest record allows. What one record alone can tell is that of the first: kurtogram, another sample rate, and
+/// a drift of the speed where there is one record.
+///
+/// # Errors
+/// As [`analyze`], of several [`AnalysisError::InRecord`]; where there is none, a speed is out of range, or
+/// [`Options::rotation`] is given for several.
+pub fn analyze_records(records: &[(&[f64], f64)], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     require(fs > 0.0 && fs.is_finite(), "sample rate (Hz)", fs, "above 0")?;
-    options.check(x.len() as f64 / fs)?;
-    check(x, fs, options)?;
-    let repeats = repetition(x);
-    let x = match repeats {
-        None => x,
-        // A stretch that is there again says nothing new, and its repetition has lines.
-        Some(samples) => {
-            let once = &x[..samples];
-            check(once, fs, options)?;
-            once
-        }
-    };
-    let mean = x.iter().sum::<f64>() / x.len() as f64;
-    let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
-    let mut flaws = soundness::flaws(&x, fs, options.shaft);
-    flaws.extend(repeats.map(|samples| Flaw::Repeats { every: samples as f64 / fs }));
+    let count = records.len();
+    let most = if options.rotation.is_some() { 1 } else { usize::MAX };
+    require((1..=most).contains(&count), "records", count as f64, "one or more, and one of a speed that is followed")?;
+    options.check(records[0].0.len() as f64 / fs)?;
+    let mut prepared = Vec::with_capacity(count);
+    for (k, (x, speed)) in records.iter().enumerate() {
+        prepared.push(Prepared::of(x, *speed, fs, options).map_err(|why| match count {
+            1 => why,
+            _ => AnalysisError::InRecord { number: k + 1, why: why.into() },
+        })?);
+    }
+    let mut flaws: Vec<(usize, Flaw)> = Vec::new();
+    for (k, record) in prepared.iter().enumerate() {
+        flaws.extend(record.flaws.iter().map(|flaw| (k, *flaw)));
+    }
     // What is missing has no speed.
-    let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
-    let Prepared { map, evidence, transformed, other_rate } = prepare(&x, fs, options, whole)?;
-    flaws.extend(other_rate.map(|(fits, lines)| Flaw::OtherRate { fits, given: fs, lines }));
-    let samples = x.len();
-    let record_peak = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let whole = !(flaws.iter()).any(|(_, f)| matches!(f, Flaw::Held { .. }));
+    let Told { map, evidence, transformed, other_rate } = tell(&prepared, fs, options, whole && count == 1)?;
+    flaws.extend(other_rate.map(|(fits, lines)| (0, Flaw::OtherRate { fits, given: fs, lines })));
     let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
     let damaged = record.is_damage();
+    let each: Vec<&[f64]> = prepared.iter().map(|r| &r.x[..]).collect();
+    let means: Vec<(Estimate, f64)> = (prepared.iter().zip(shares(&each)))
+        .map(|(r, share)| (Estimate { value: r.mean, interval: None }, share))
+        .collect();
     Ok(Analysis {
         sample_rate: fs,
-        samples,
-        mean,
+        records: count,
+        samples: each.iter().map(|x| x.len()).sum(),
+        mean: Estimate::pooled(&means, 1).value,
         shaft: record.shaft,
         shaft_found: record.options.rotation.is_some() || !shaft_lines.is_empty(),
         shaft_lines,
         flaws,
         drift,
         // Over revolutions of the speed that is used.
-        indicators: indicators(&x, fs / record.shaft),
-        record_peak,
+        indicators: indicators(&each, fs / record.shaft),
+        record_peak: each.iter().flat_map(|x| *x).fold(0.0, |m: f64, v| m.max(v.abs())),
         kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
         map,
         view,
@@ -133,50 +147,90 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     })
 }
 
-/// What is taken from the samples themselves.
+/// A record that can be analysed.
 struct Prepared {
+    /// Less its mean.
+    x: Vec<f64>,
+    mean: f64,
+    /// The shaft's frequency in the analysis over that in the record.
+    pace: f64,
+    flaws: Vec<Flaw>,
+}
+
+impl Prepared {
+    fn of(x: &[f64], speed: f64, fs: f64, options: &Options) -> Result<Self, AnalysisError> {
+        require(speed > 0.0 && speed.is_finite(), "shaft speed (Hz)", speed, "above 0")?;
+        let own = Options { shaft: speed, ..options.clone() };
+        check(x, fs, &own)?;
+        let repeats = repetition(x);
+        let x = match repeats {
+            None => x,
+            // A stretch that is there again says nothing new, and its repetition has lines.
+            Some(samples) => {
+                let once = &x[..samples];
+                check(once, fs, &own)?;
+                once
+            }
+        };
+        let mean = x.iter().sum::<f64>() / x.len() as f64;
+        let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
+        let mut flaws = soundness::flaws(&x, fs, speed);
+        flaws.extend(repeats.map(|samples| Flaw::Repeats { every: samples as f64 / fs }));
+        Ok(Prepared { x, mean, pace: options.shaft / speed, flaws })
+    }
+}
+
+/// What is taken from the samples themselves.
+struct Told {
     map: Option<Kurtogram>,
     evidence: SpeedEvidence,
-    transformed: Transformed,
+    transformed: Vec<Paced>,
     /// Sample rate at which lines would be the shaft's, Hz, and how many.
     other_rate: Option<(f64, usize)>,
 }
 
-/// All that asks for nothing but the samples, side by side; the speed's drift is sought where the record is `whole`.
-fn prepare(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Prepared, AnalysisError> {
+/// All that asks for nothing but the samples, side by side; the speed's drift is sought where there is one record,
+/// and that `whole`.
+fn tell(records: &[Prepared], fs: f64, options: &Options, whole: bool) -> Result<Told, AnalysisError> {
+    let first = &records[0].x;
     let may_drift = whole && options.rotation.is_none() && !options.exact;
-    let part = &x[..x.len().min(LONGEST)];
+    let part = &first[..first.len().min(LONGEST)];
     let map = || match options.band {
         Some(_) => Ok(None),
         None => kurtogram(part, fs, DEPTH).map(Some),
     };
     // Followed or exact, it is known: a fifth of BPFI is near the speed of many shafts.
     let is_known = options.rotation.is_some() || options.exact;
-    let lines = || if is_known { Ok(None) } else { known_lines::shaft(x, fs, options) };
+    let paced: Vec<(&[f64], f64)> = records.iter().map(|r| (&r.x[..], r.pace * fs)).collect();
+    let lines = || if is_known { Ok(None) } else { known_lines::shaft(&paced, options) };
     let other_rate = || if is_known { Ok(None) } else { known_lines::other_rate(part, fs, options) };
-    let drift = || may_drift.then(|| drift::by_shaft(x, fs, options))?;
+    let drift = || may_drift.then(|| drift::by_shaft(first, fs, options))?;
     // As much as is transformed fast, with a trace of noise, and a machine's where a simulation has none.
     let noise = options.silent.unwrap_or(0.0);
-    let transformed = || Transformed::of(&x[..fast_up_to(x.len())], fs);
+    let one = |r: &Prepared| {
+        let transformed = Transformed::of(&r.x[..fast_up_to(r.x.len())], fs)?;
+        Ok((transformed.dithered(DITHER, noise), r.pace))
+    };
+    let transformed = || records.iter().map(one).collect::<Result<Vec<Paced>, AnalysisError>>();
     let rest = || join(other_rate, || join(drift, transformed));
     let (map, (lines, (other_rate, (drift, transformed)))) = join(map, || join(lines, rest));
-    Ok(Prepared {
+    Ok(Told {
         map: map?,
         evidence: SpeedEvidence { lines: lines?, drift, may_drift },
         other_rate: other_rate?,
-        transformed: transformed?.dithered(DITHER, noise),
+        transformed: transformed?,
     })
 }
 
 /// The envelope spectrum to show: of the band in which the family that leads is highest; of the whole range where
 /// none leads.
-fn view(record: &Record, envelopes: &Envelopes, transformed: &Transformed) -> Result<View, AnalysisError> {
+fn view(record: &Record, envelopes: &Envelopes, records: &[Paced]) -> Result<View, AnalysisError> {
     let (shaft, options) = (record.shaft, &record.options);
     let (band, choice, (mean, spectrum)) = match (options.band, record.lead()) {
         (None, Some(lead)) => {
             let lines = lead.harmonics.iter().filter(|h| h.snr_db.is_some()).map(|h| h.frequency);
-            let (band, envelope) = &envelopes.each[record.together.clearest(lines)];
-            let spectrum = envelopes.spectrum(envelope, shaft, options)?;
+            let (band, of_band) = &envelopes.each[record.together.clearest(lines)];
+            let spectrum = envelopes.spectrum(of_band, shaft, options)?;
             (*band, BandChoice::Clearest, spectrum)
         }
         (given, _) => {
@@ -184,21 +238,32 @@ fn view(record: &Record, envelopes: &Envelopes, transformed: &Transformed) -> Re
                 Some(_) => BandChoice::Given,
                 None => BandChoice::Broad,
             };
-            let range = bands::range(transformed.sample_rate(), options)?;
-            let spectrum = together::envelope_spectrum(transformed, range, shaft, options)?;
+            let range = bands::range(records[0].0.sample_rate(), options)?;
+            let spectrum = together::envelope_spectrum(records, range, shaft, options)?;
             (range, choice, spectrum)
         }
     };
     Ok(View { band, choice, spectrum, mean })
 }
 
-/// Of a signal less its mean, averaged over revolutions of `revolution` samples.
-fn indicators(x: &[f64], revolution: f64) -> Vec<(Indicator, Estimate)> {
-    let blocks = Blocks::of(x, revolution);
+/// Of records less their means, averaged over revolutions of `revolution` samples.
+fn indicators(records: &[&[f64]], revolution: f64) -> Vec<(Indicator, Estimate)> {
+    let blocks: Vec<Blocks> = records.iter().map(|x| Blocks::of(x, revolution)).collect();
+    let of = |i: Indicator| {
+        let each = blocks.iter().zip(shares(records)).map(|(b, share)| Some((b.estimate(i)?, share)));
+        let exponent = if i == Indicator::Rms { 2 } else { 1 };
+        Some((i, Estimate::pooled(&each.collect::<Option<Vec<_>>>()?, exponent)))
+    };
     (Indicator::ALL.into_iter())
         .filter(|i| *i != Indicator::Mean && *i != Indicator::StandardDeviation)
-        .filter_map(|i| Some((i, blocks.estimate(i)?)))
+        .filter_map(of)
         .collect()
+}
+
+/// Of each record in all samples.
+fn shares(records: &[&[f64]]) -> Vec<f64> {
+    let samples: usize = records.iter().map(|x| x.len()).sum();
+    records.iter().map(|x| x.len() as f64 / samples as f64).collect()
 }
 
 /// Amplitude spectrum of `x` less its mean, sampled at `fs` Hz, averaged: lines about 1 Hz apart, eight averages where

@@ -84,7 +84,9 @@ pub struct Analysis {
     pub options: Options,
     /// Sample rate, Hz.
     pub sample_rate: f64,
-    /// Samples analysed.
+    /// Records analysed together.
+    pub records: usize,
+    /// Samples analysed, of all records.
     pub samples: usize,
     /// Mean that was removed.
     pub mean: f64,
@@ -92,19 +94,19 @@ pub struct Analysis {
     pub shaft: f64,
     /// Whether it is known: from lines of the signal, or as it was followed.
     pub shaft_found: bool,
-    /// What is wrong with the record itself.
-    pub flaws: Vec<Flaw>,
+    /// What is wrong with a record itself, and with which, counted from 0.
+    pub flaws: Vec<(usize, Flaw)>,
     /// How the speed changes during the record, where lines tell it and nobody said so.
     pub drift: Option<Drift>,
     /// Harmonics of the shaft whose lines told its speed; none where it was given or followed.
     pub shaft_lines: Vec<usize>,
-    /// Indicators of the signal less its mean over whole revolutions, with intervals; peaks are those of a revolution.
+    /// Indicators of the signal less its mean (of several records: means of theirs, of the RMS the mean of squares) over whole revolutions, with intervals; peaks are those of a revolution.
     pub indicators: Vec<(Indicator, Estimate)>,
-    /// Largest |x| of the record less its mean; it grows with the record's length.
+    /// Largest |x| of a record less its mean; it grows with the record's length.
     pub record_peak: f64,
     /// The most impulsive band, where there is one.
     pub kurtogram: Option<KurtogramBand>,
-    /// The kurtogram it was found in, unless the band was given.
+    /// The kurtogram it was found in, that of the first record, unless the band was given.
     pub map: Option<Kurtogram>,
     /// The envelope spectrum to show.
     pub view: View,

@@ -3,15 +3,17 @@
 //! The range above three times the highest defect frequency is tiled by bands of equal width, each half over the next.
 //! Power in the envelope spectrum of each is divided by the noise floor about it (a running median) and averaged over
 //! the bands: every band counts alike, whatever its level, as in the integrated cyclic spectral coherence (J. Antoni,
-//! "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630).
+//! "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630). Of several records of one
+//! machine each counts by its length, whatever its level, and no segment holds parts of two.
 
 use super::running_median::running_median;
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
 use crate::parallel;
+use crate::psd::of_records;
 use crate::spectrum::interpolate;
-use crate::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
+use crate::{Band, Spectrum, Thinned, Transformed, resample};
 
 /// Harmonics of a defect frequency that are looked at.
 pub const HARMONICS: usize = 5;
@@ -44,6 +46,10 @@ pub(super) const SUPPLY_KNOWN: f64 = 0.005;
 /// Lines of the shaft by which its comb is placed.
 const OF_SHAFT: usize = 10;
 
+/// A record, and the shaft's frequency in the analysis over its own: what its times are divided by, so that all turn
+/// alike.
+pub(super) type Paced = (Transformed, f64);
+
 /// Shaft speed, and how far its lines may lie from it where they were found in the signal; both Hz.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shaft {
@@ -64,6 +70,9 @@ pub(super) struct Together {
     each: Vec<Vec<f64>>,
     /// Power over floor that noise alone hardly shows at a place.
     pub(super) noise: f64,
+    /// How high a line rises over the noise, over what it does in segments of [`REVOLUTIONS`]: of several records, which
+    /// average chance lines away; of one it is 1, whatever its length.
+    pub(super) rise: f64,
 }
 
 /// What is at a frequency.
@@ -78,7 +87,7 @@ pub(super) struct Place {
 impl Together {
     /// Of a signal's envelopes.
     pub(super) fn of(envelopes: &Envelopes, shaft: Shaft, options: &Options) -> Result<Self, AnalysisError> {
-        let spectra = in_parallel(&envelopes.each, |(_, envelope)| envelopes.spectrum(envelope, shaft.hz, options))?;
+        let spectra = in_parallel(&envelopes.each, |(_, each)| envelopes.spectrum(each, shaft.hz, options))?;
         let bins = spectra.iter().map(|s| s.1.amplitude.len()).min().unwrap_or(0);
         let (step, freedom) = (spectra.first()).map_or((1.0, 2.0), |(_, s)| (s.frequency_step, s.degrees_of_freedom));
         let width = (FLOOR.0 * shaft.hz / step).max(FLOOR.1) as usize;
@@ -90,6 +99,10 @@ impl Together {
             hidden: vec![false; bins],
             each: Vec::new(),
             noise: chi_square_quantile(NOISE, apart * freedom) / (apart * freedom),
+            rise: match envelopes.rates.len() {
+                1 => 1.0,
+                _ => (shaft.hz / (step * REVOLUTIONS)).min(1.0),
+            },
         };
         // The median of a power with few degrees of freedom lies below its mean.
         let unbiased = 1.0 / (1.0 - 2.0 / (9.0 * freedom)).powi(3);
@@ -310,61 +323,83 @@ pub(super) fn apart(bands: usize) -> f64 {
     0.5 * (bands as f64 + 1.0)
 }
 
-/// Mean of a band's envelope, in the signal's unit, and its spectrum up to the highest line sought.
+/// Mean of a band's envelopes, in the signal's unit, and their spectrum up to the highest line sought.
 pub(super) fn envelope_spectrum(
-    transformed: &Transformed,
+    records: &[Paced],
     band: Band,
     shaft: f64,
     options: &Options,
 ) -> Result<(f64, Spectrum), AnalysisError> {
-    let envelope = thinned(transformed, band, top(shaft, options));
-    let rate = rate_of(&envelope, transformed);
-    spectrum_of(&envelope, rate, shaft, options)
+    let top = top(shaft, options);
+    let each: Vec<Thinned> = records.iter().map(|(transformed, _)| thinned(transformed, band, top)).collect();
+    spectrum_of(&each, &rates_of(&each, records), shaft, options)
 }
 
-fn spectrum_of(envelope: &Thinned, rate: f64, shaft: f64, options: &Options) -> Result<(f64, Spectrum), AnalysisError> {
-    let (values, rate) = at_angles(envelope, rate, shaft, options)?;
-    let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
-    let mut spectrum = psd(&values, rate, &Segments::of(fast_up_to(length)))?;
+/// As if the envelopes had one mean.
+fn spectrum_of(
+    envelopes: &[Thinned],
+    rates: &[f64],
+    shaft: f64,
+    options: &Options,
+) -> Result<(f64, Spectrum), AnalysisError> {
+    let mean = envelopes.iter().map(|e| e.mean).sum::<f64>() / envelopes.len() as f64;
+    let each = envelopes.iter().zip(rates).map(|(envelope, rate)| {
+        let (mut values, rate) = at_angles(envelope, *rate, shaft, options)?;
+        if envelope.mean > 0.0 {
+            values.iter_mut().for_each(|v| *v *= mean / envelope.mean);
+        }
+        Ok((values, rate))
+    });
+    let each = each.collect::<Result<Vec<_>, AnalysisError>>()?;
+    let each: Vec<(&[f64], f64)> = each.iter().map(|(values, rate)| (&values[..], *rate)).collect();
+    let mut spectrum = of_records(&each, (REVOLUTIONS, shaft))?;
     let bins = (1.03 * top(shaft, options) / spectrum.frequency_step) as usize;
     spectrum.amplitude.truncate(bins);
     spectrum.density.truncate(bins);
-    Ok((envelope.mean, spectrum))
+    Ok((mean, spectrum))
 }
 
 /// The envelopes of all bands.
 pub(super) struct Envelopes {
-    pub(super) each: Vec<(Band, Thinned)>,
-    /// How often they are sampled, Hz.
-    pub(super) rate: f64,
+    /// Of each record.
+    pub(super) each: Vec<(Band, Vec<Thinned>)>,
+    /// How often those of each record are sampled, at the pace of all, Hz.
+    pub(super) rates: Vec<f64>,
 }
 
 impl Envelopes {
-    pub(super) fn of(
-        transformed: &Transformed,
-        range: Band,
-        shaft: f64,
-        options: &Options,
-    ) -> Result<Self, AnalysisError> {
+    pub(super) fn of(records: &[Paced], range: Band, shaft: f64, options: &Options) -> Result<Self, AnalysisError> {
         let top = top(shaft, options);
-        let each = in_parallel(&tiles(range, top), |band| Ok((*band, thinned(transformed, *band, top))))?;
-        let rate = each.first().map_or(1.0, |(_, e)| rate_of(e, transformed));
-        Ok(Envelopes { each, rate })
+        let each = in_parallel(&tiles(range, top), |band| {
+            Ok((*band, records.iter().map(|(transformed, _)| thinned(transformed, *band, top)).collect::<Vec<_>>()))
+        })?;
+        let rates = each.first().map_or(vec![1.0], |(_, e)| rates_of(e, records));
+        Ok(Envelopes { each, rates })
     }
 
-    /// Mean of one of them, in the signal's unit, and its spectrum up to the highest line sought.
+    /// Length of the shortest record, s.
+    pub(super) fn shortest(&self) -> f64 {
+        let each = self.each.first().map_or(&[][..], |(_, each)| each);
+        let seconds = each.iter().zip(&self.rates).map(|(e, rate)| e.values.len() as f64 / rate);
+        seconds.reduce(f64::min).unwrap_or(0.0)
+    }
+
+    /// Mean of those of a band, in the signal's unit, and their spectrum up to the highest line sought.
     pub(super) fn spectrum(
         &self,
-        envelope: &Thinned,
+        envelopes: &[Thinned],
         shaft: f64,
         options: &Options,
     ) -> Result<(f64, Spectrum), AnalysisError> {
-        spectrum_of(envelope, self.rate, shaft, options)
+        spectrum_of(envelopes, &self.rates, shaft, options)
     }
 }
 
-fn rate_of(envelope: &Thinned, transformed: &Transformed) -> f64 {
-    transformed.sample_rate() * envelope.values.len() as f64 / transformed.samples() as f64
+fn rates_of(envelopes: &[Thinned], records: &[Paced]) -> Vec<f64> {
+    let rate = |(envelope, (transformed, pace)): (&Thinned, &Paced)| {
+        pace * (transformed.sample_rate() * envelope.values.len() as f64 / transformed.samples() as f64)
+    };
+    envelopes.iter().zip(records).map(rate).collect()
 }
 
 /// A band's envelope, thinned out as far as lines up to `top` Hz allow.

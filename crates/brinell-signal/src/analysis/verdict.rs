@@ -23,7 +23,7 @@ const TELLING: f64 = 20.0;
 /// The same for the cage's own lines.
 const TELLING_CAGE: f64 = 40.0;
 
-/// What was looked at, how long it is, and what was found.
+/// What was looked at, how long the shortest record is, and what was found.
 pub(super) struct Record {
     pub(super) together: Together,
     revolutions: f64,
@@ -40,11 +40,9 @@ pub(super) struct Record {
 
 impl Record {
     pub(super) fn of(envelopes: &Envelopes, known: Shaft, options: &Options) -> Result<Self, AnalysisError> {
-        let samples = envelopes.each.first().map_or(0, |(_, e)| e.values.len());
-        let seconds = samples as f64 / envelopes.rate;
         let mut record = Record {
             together: Together::of(envelopes, known, options)?,
-            revolutions: seconds * known.hz,
+            revolutions: envelopes.shortest() * known.hz,
             shaft: known.hz,
             by_lines: known.tolerance > 0.0,
             options: options.clone(),

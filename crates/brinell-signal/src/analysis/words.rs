@@ -52,7 +52,7 @@ impl Analysis {
     pub fn clarity(&self, family: &Family) -> &'static str {
         let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
         let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        let other_rate = self.flaws.iter().any(|f| matches!(f, Flaw::OtherRate { .. }));
+        let other_rate = self.flaws.iter().any(|(_, f)| matches!(f, Flaw::OtherRate { .. }));
         let doubt = lost || other_rate || self.speed_used().is_some() || self.slips(family).is_some();
         let is_sure = self.speed_is_told() && !doubt;
         match (may_be_other, family.is_very_clear() && is_sure) {
@@ -225,7 +225,8 @@ fn left_open(analysis: &Analysis) -> Vec<String> {
     let turns = (analysis.duration() * analysis.shaft).round();
     if turns < SHORT {
         text.push(format!(
-            "The record is short, {turns:.0} turns of the shaft: {SHORT:.0}, which take {:.1} s, may show more.",
+            "{} short, {turns:.0} turns of the shaft: {SHORT:.0}, which take {:.1} s, may show more.",
+            if analysis.records > 1 { "Together the records are" } else { "The record is" },
             SHORT / analysis.shaft
         ));
     }

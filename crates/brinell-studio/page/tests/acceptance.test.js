@@ -65,7 +65,7 @@ async function scratched(page) {
 async function refused(page) {
   await start(page, "rectangle");
   const field = page.locator(".chosen .field", { hasText: "Width" }), input = field.locator("input[inputmode]");
-  await type(input, "9");
+  await type(input, "99");
   await until(page, () => document.querySelector('.chosen [aria-invalid="true"]'));
   assert.match(await field.locator('[role="alert"]').textContent(), /wider than the roller/);
   const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);

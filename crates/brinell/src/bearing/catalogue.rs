@@ -1,7 +1,10 @@
 //! Bearings that work out of the box. Every number says where it comes from; estimates say how they were made.
 //!
-//! The numbers live in `catalogue.toml`, one table a bearing, keyed by scenario path. Values keep the scenario
+//! The numbers live in `catalogue.toml`, one table a bearing, keyed by scenario path; those of series that follow from a
+//! maker's table by rule in `catalogue/series.csv`. Values keep the scenario
 //! file's units, which the keys name.
+
+mod series;
 
 use super::designation::{of_one_kind, plain, readings, with_zeros};
 use super::kinematics::Geometry;
@@ -108,7 +111,10 @@ impl Entry {
 
 const TEXT: &str = include_str!("catalogue.toml");
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| own(TEXT));
+static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+    let of_series = series::rows().map(|(_, row)| of_lines(row));
+    own(TEXT).into_iter().chain(of_series).collect()
+});
 
 /// One bearing's lines, read where it is asked for: to read all takes as long as many a run.
 struct Lines {
@@ -124,10 +130,10 @@ static LINES: LazyLock<Vec<Lines>> = LazyLock::new(|| {
         let text = &TEXT[from..to];
         Some(Lines { name: text[2..].split_once('"')?.0, text, entry: OnceLock::new() })
     });
-    lines.collect()
+    lines.chain(series::rows().map(|(name, text)| Lines { name, text, entry: OnceLock::new() })).collect()
 });
 
-/// Every bearing, in the file's order.
+/// Every bearing, in the files' order.
 pub fn all() -> &'static [Entry] {
     &ENTRIES
 }
@@ -144,7 +150,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 pub fn find_exactly(name: &str) -> Option<&'static Entry> {
     let wanted = plain(name);
     let lines = LINES.iter().find(|lines| plain(lines.name) == wanted)?;
-    Some(lines.entry.get_or_init(|| own(lines.text).swap_remove(0)))
+    Some(lines.entry.get_or_init(|| of_lines(lines.text)))
 }
 
 /// The name of the catalogue that is nearest to one that it does not have.
@@ -155,6 +161,12 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     let base = readings(name).into_iter().next().map(|(base, _)| base);
     let base = base.unwrap_or_else(|| plain(name));
     did_you_mean(&base, all().iter().map(|entry| entry.name.as_str()).filter(|known| of_one_kind(name, known)))
+}
+
+/// Of one bearing's lines of `catalogue.toml`, or its row of `series.csv`.
+fn of_lines(text: &str) -> Entry {
+    let filled = if text.starts_with('[') { None } else { series::text(text) };
+    own(filled.as_deref().unwrap_or(text)).swap_remove(0)
 }
 
 /// Of the file that is part of the program.

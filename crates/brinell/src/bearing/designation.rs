@@ -5,8 +5,25 @@
 //! change the clearance.
 
 /// Makers, whose names may be in front.
-const MAKERS: [&str; 14] =
-    ["SKF", "FAG", "INA", "NSK", "NTN", "SNR", "KOYO", "NACHI", "TIMKEN", "LDK", "REXNORD", "ZKL", "RHP", "SCHAEFFLER"];
+const MAKERS: [&str; 17] = [
+    "SKF",
+    "FAG",
+    "INA",
+    "NSK",
+    "NTN",
+    "SNR",
+    "KOYO",
+    "NACHI",
+    "TIMKEN",
+    "LDK",
+    "REXNORD",
+    "ZKL",
+    "RHP",
+    "SCHAEFFLER",
+    "MB",
+    "FYH",
+    "ASAHI",
+];
 
 /// Letters and digits, the letters large.
 pub(super) fn plain(name: &str) -> String {
@@ -87,7 +104,8 @@ pub(super) fn kind(name: &str) -> Option<&'static str> {
     let two = size.get(..2)?;
     Some(match (letters, size.len(), two) {
         ("NA" | "RNA" | "NK" | "NKI" | "HK" | "BK", ..) => "needle roller bearing",
-        ("UC" | "UER" | "UEL" | "YAR" | "YEL", ..) => "insert ball bearing",
+        ("ER" | "UER" | "UEL" | "YAR" | "YEL", ..) => "insert ball bearing",
+        (letters, ..) if letters.starts_with("UC") => "insert ball bearing",
         ("QJ", ..) => "four-point contact ball bearing",
         (letters, ..) if letters.starts_with('N') => "cylindrical roller bearing",
         ("", 4, "32" | "33" | "52" | "53") => "double row angular contact ball bearing",

@@ -1,8 +1,8 @@
-//! Bearings known by name, those of the catalogue and those of public data sets; defect frequencies as orders of the
+//! Bearings known by name, those of the catalogue and those known by their frequencies alone; defect frequencies as orders of the
 //! shaft.
 
 use super::catalogue::{self, Entry};
-use super::designation::{kind, of_one_kind, with_zeros};
+use super::designation::{kind, of_one_kind, readings, with_zeros};
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::did_you_mean::{did_you_mean, nearest_few};
@@ -28,12 +28,33 @@ pub fn frequencies_of(orders: DefectOrders, speed_rpm: f64) -> [(&'static str, f
     frequency_table(shaft, hz(ftf), hz(bpfo), hz(bpfi), hz(bsf))
 }
 
+/// What to give of a bearing that is not known by name.
+const INSTEAD: &str = "For another give what its maker's page tells: the number of rolling elements, their diameter, the pitch diameter and \
+     the contact angle; or BPFO, BPFI, BSF and FTF over the shaft's frequency";
+
+/// What names of one bearing begin with: a unit's is its insert's (`UC205` of `UCP205` and `UCFL205`), and that of an angular
+/// contact ball bearing has the letters of its angle (`7205B` of `7205 BEP`).
+fn bases(name: &str) -> Vec<String> {
+    let of = |(base, suffix): (String, String)| {
+        if let Some(rest) = base.strip_prefix("UC") {
+            return format!("UC{}", rest.trim_start_matches(|c: char| c.is_ascii_alphabetic()));
+        }
+        if kind(&base) != Some("angular contact ball bearing") {
+            return base;
+        }
+        let letters = suffix.trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+        let angle = if letters.starts_with("AC") { "AC" } else { letters.get(..1).unwrap_or("") };
+        format!("{base}{angle}")
+    };
+    readings(name).into_iter().map(of).collect()
+}
+
 /// A bearing that every command knows by its name. A preset of a scenario is one of the catalogue.
 #[derive(Debug, Clone, Copy)]
 pub enum KnownBearing {
     /// Of the catalogue, with all that a scenario needs.
     Catalogue(&'static Entry),
-    /// Of a public data set, with what its defect frequencies follow from.
+    /// Of a data set, a paper or a maker's table, with what its defect frequencies follow from.
     DataSet(&'static NamedBearing),
 }
 
@@ -50,7 +71,14 @@ impl KnownBearing {
         // A data set's own bearing before one of the catalogue that has but the same size: 6205-2RS.
         let catalogued = |found: fn(&str) -> Option<&'static Entry>| found(name).map(Self::Catalogue);
         let named = || NamedBearing::find(name).map(Self::DataSet);
-        catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find))
+        let of_base = || {
+            let known = |base: String| match NAMED.iter().find(|b| bases(b.name).contains(&base)) {
+                Some(bearing) => Some(Self::DataSet(bearing)),
+                None => catalogue::find_exactly(&base).map(Self::Catalogue),
+            };
+            bases(name).into_iter().find_map(known)
+        };
+        catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find)).or_else(of_base)
     }
 
     /// The bearing of this name, or why there is none.
@@ -74,15 +102,21 @@ impl KnownBearing {
     pub fn unknown(name: &str) -> String {
         let names: Vec<&str> = Self::all().map(Self::name).collect();
         if let Some(why) = Self::of_no_known_type(name) {
-            return format!("no bearing {name:?}: {why}");
+            return format!("no bearing {name:?}: {why}. {INSTEAD}");
         }
         let zeros = with_zeros(name).and_then(|name| Self::find(&name));
         let alike = || names.iter().copied().filter(|known| of_one_kind(name, known));
-        let meant =
-            (zeros.map(Self::name)).or_else(|| catalogue::nearest_name(name)).or_else(|| did_you_mean(name, alike()));
+        // Of a type that is known a size is no slip of the finger for another.
+        let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
+        let of_the_size = || alike().filter(|known| kind(name).is_none() || digits(known) == digits(name));
+        let meant = (zeros.map(Self::name))
+            .or_else(|| catalogue::nearest_name(name))
+            .or_else(|| did_you_mean(name, of_the_size()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
-        format!("no bearing {name:?}{hint}{joint} are {}", nearest_few(name, names.iter().copied()))
+        // Of its type, where the name tells one.
+        let near: Vec<&str> = alike().collect();
+        format!("no bearing {name:?}{hint}{joint} are {}. {INSTEAD}", nearest_few(name, near.into_iter()))
     }
 
     /// Its name.
@@ -114,7 +148,13 @@ impl KnownBearing {
                 let g = entry.geometry()?;
                 of(g.rollers_per_row, g.roller_diameter, g.pitch_diameter)
             }
-            Self::DataSet(bearing) => of(bearing.elements, bearing.diameter_mm, bearing.pitch_mm),
+            Self::DataSet(bearing) => match bearing.measures {
+                Some(m) => of(bearing.elements, m.diameter_mm, m.pitch_mm),
+                None => Err(format!(
+                    "of {} its frequencies are printed, and no diameters to change the angle of",
+                    bearing.name
+                )),
+            },
         }
     }
 
@@ -154,12 +194,57 @@ mod tests {
             let rows = frequencies_of(known.orders().unwrap().0, 60.0);
             let near = |name: &str, order: Option<f64>| {
                 let row = rows.iter().find(|row| row.0 == name).unwrap();
-                assert!((row.1 / order.unwrap() - 1.0).abs() < 1e-12, "{name}");
+                assert!(order.map_or(row.1.is_nan(), |order| (row.1 / order - 1.0).abs() < 1e-12), "{name}");
             };
             near("BPFO", orders.bpfo);
             near("BPFI", orders.bpfi);
             near("BSF", orders.bsf);
             near("FTF", orders.ftf);
+        }
+    }
+
+    #[test]
+    fn prop_suffixes_makers_and_housings_lead_to_the_bearing_and_to_no_other() {
+        for (name, known) in [
+            ("ER-16K", "ER-16K"),
+            ("er16k", "ER-16K"),
+            ("Rexnord ER 16 KCL", "ER-16K"),
+            ("NSK 6804DD", "6804DD"),
+            ("6804 ZZ", "6804"),
+            ("FAG 22205-E1-XL-K/C3", "22205"),
+            ("22228 CCK/W33", "22228"),
+            ("1205 ETN9", "1205"),
+            ("UCP205", "UC205"),
+            ("UCFL 208", "UC208"),
+            ("UCP 204", "UC204"),
+            ("30204 J2/Q", "30204"),
+            ("SKF 7205 BECBP", "7205-B"),
+            ("7208C", "7208-C"),
+            ("51208", "51208"),
+            ("6205-2RS", "6205-2RS"),
+            ("6205 2RSH/C3", "6205"),
+        ] {
+            assert_eq!(KnownBearing::find(name).map(KnownBearing::name), Some(known), "{name}");
+        }
+        for name in ["2221", "22210", "62052", "ER-20K", "UC216", "120", "7205", "7205 ACD", "51105", "3020"] {
+            let words = KnownBearing::named(name).unwrap_err();
+            assert!(words.contains("the number of rolling elements, their diameter"), "{words}");
+        }
+    }
+
+    #[test]
+    fn lit_thrust_bearings_are_passed_by_half_of_their_balls_and_no_race_can_be_told() {
+        let (orders, _) = KnownBearing::find("51208").unwrap().orders().unwrap();
+        assert_eq!((orders.bpfo, orders.bpfi, orders.ftf), (Some(7.5), Some(7.5), Some(0.5)));
+        assert!(orders.with_given([None; 4]).unwrap_err().to_string().contains("passed more often"));
+    }
+
+    #[test]
+    fn lit_factors_of_schaeffler_for_the_6210() {
+        // FAG 6210-C-2HRS: basic frequency factors of the same calculation as the 2303's (frequencies.csv).
+        let (o, _) = KnownBearing::find("6210").unwrap().orders().unwrap();
+        for (order, printed) in [(o.bpfo, 4.0929), (o.bpfi, 5.9071), (o.bsf, 2.6652), (o.ftf, 0.4093)] {
+            assert!((order.unwrap() / printed - 1.0).abs() < 2e-4, "{order:?} {printed}");
         }
     }
 }

@@ -51,7 +51,7 @@ pub fn sections(shape: &Shape, depth: f64, width: f64, thickness: f64, points: u
         .map(|k| {
             let s = first + (last - first) * k as f64 / points.saturating_sub(1).max(1) as f64;
             let h = shape.own_depth(s).unwrap_or(depth);
-            let damaged = shape.damaged_length(s);
+            let damaged = shape.damaged_length(s).min(width);
             (s, Section::new(width, thickness, damaged, h))
         })
         .collect()

@@ -43,7 +43,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("rollers_per_row", "rollers_per_row = 2", "bearing.rollers_per_row", "out of range", "3 to 1000"),
         ("rollers_per_row", "rollers_per_row = 99999999999999999999999", "bearing.rollers_per_row", "out of range", "3 to 1000"),
         ("rollers_per_row", "rollers_per_row = 27", "bearing.rollers_per_row", "rollers overlap in the row", "3 to 25"),
-        ("rows", "preset = \"ZA-2115\"", "bearing.preset", "of a public data set the defect frequencies are known", "brinell bearing list"),
+        ("rows", "preset = \"ZA-2115\"", "bearing.preset", "of this bearing the defect frequencies are known", "brinell bearing list"),
         ("radial_clearance_um", "radial_clearance_um = 1000.0", "bearing.radial_clearance_um", "out of proportion", "-300 to 300 um"),
         ("rows", "rows = 0", "bearing.rows", "out of range", "1 to 100"),
         ("rows", "bore_diameter_mm = 43", "bearing.bore_diameter_mm", "leaves no inner ring", "< 43 mm"),
@@ -80,12 +80,12 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("shape", "shape = { rectangel = { length_mm = 3.0 } }", "defects.0.shape.rectangel", "did you mean `rectangle`", ""),
         ("shape", "shape = \"rectangle\"", "defects.0.shape", "expected a table such as", "exactly one of"),
         ("shape", "shape = {}", "defects.0.shape", "it has 0 keys", "exactly one of"),
-        ("shape", "shape = { rectangle = { length_mm = 3.0, width_mm = 7.0 } }", "defects.0.shape.rectangle.width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { rectangle = { length_mm = 3.0, width_mm = 61.0 } }", "defects.0.shape.rectangle.width_mm", "wider than the roller", "<= 60 mm"),
         ("shape", "shape = { rectangle = { length_mm = 173.0, width_mm = 4.0 } }", "defects.0.shape.rectangle.length_mm", "past a full circle", "<= 172.8 mm"),
-        ("shape", "shape = { circle = { diameter_mm = 6.1 } }", "defects.0.shape.circle.diameter_mm", "wider than the roller", "<= 6 mm"),
-        ("shape", "shape = { li2023_irregular = { max_width_mm = 6.1 } }", "defects.0.shape.li2023_irregular.max_width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { circle = { diameter_mm = 61 } }", "defects.0.shape.circle.diameter_mm", "wider than the roller", "<= 60 mm"),
+        ("shape", "shape = { li2023_irregular = { max_width_mm = 61 } }", "defects.0.shape.li2023_irregular.max_width_mm", "wider than the roller", "<= 60 mm"),
         ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0] } }", "defects.0.shape.profile.width_mm", "1 value for the 2 points", "a list of 2"),
-        ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0, 9.0] } }", "defects.0.shape.profile.width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0, 90.0] } }", "defects.0.shape.profile.width_mm", "wider than the roller", "<= 60 mm"),
         ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0, 1.0], depth_um = [2.0] } }", "defects.0.shape.profile.depth_um", "1 value for the 2 points", "a list of 2"),
         ("shape", "shape = { profile = { arc_mm = [0.0, -1.0], width_mm = [1.0, 1.0] } }", "defects.0.shape.profile.arc_mm", "must not go back", ""),
         ("shape", "shape = { profile = { arc_mm = [0.0, 90.0], width_mm = [1.0, 1.0] } }", "defects.0.shape.profile.arc_mm", "past a full circle", "-86.39 to 86.39 mm"),
@@ -97,13 +97,13 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, nan], [0, 1]] } }", "defects.0.shape.outline.points_mm", "not a finite number", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 0]] } }", "defects.0.shape.outline.points_mm", "fewer than three different corners", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 1], [2, 2]] } }", "defects.0.shape.outline.points_mm", "on one line", ""),
-        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 4]] } }", "defects.0.shape.outline.points_mm", "off the raceway's edge", "-3 to 3 mm"),
+        ("shape", "shape = { outline = { points_mm = [[0, 4], [1, 4], [0, 5]] } }", "defects.0.shape.outline.points_mm", "off the raceway's edge", "-3 to 3 mm"),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1000, 0], [0, 4000]] } }", "defects.0.shape.outline.points_mm", "um instead of mm", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [90, 0], [0, 1]] } }", "defects.0.shape.outline", "past a full circle", "-86.39 to 86.39 mm"),
         ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]] } }", "defects.0.shape.grown.max_width_mm", "missing: the width", ""),
         ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]], max_width_mm = 1, area_mm2 = 1 } }", "defects.0.shape.grown.max_width_mm", "not both", ""),
-        ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]], area_mm2 = 40 } }", "defects.0.shape.grown.area_mm2", "off the raceway's edge", ""),
-        ("shape", "shape = { random = { length_mm = 3, width_mm = 7 } }", "defects.0.shape.random.width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]], area_mm2 = 4000 } }", "defects.0.shape.grown.area_mm2", "off the raceway's edge", ""),
+        ("shape", "shape = { random = { length_mm = 3, width_mm = 70 } }", "defects.0.shape.random.width_mm", "wider than the roller", "<= 60 mm"),
         ("shape", "shape = { random = { length_mm = 3, width_mm = 2, roughness = 2 } }", "defects.0.shape.random.roughness", "out of range", "0 to 1"),
         ("shape", "shape = { random = { length_mm = 3, width_mm = 2, seed = -1 } }", "defects.0.shape.random.seed", "out of range", ""),
         ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3] } }", "defects.0.shape.depth_map.depth_um", "3 depths for 2 columns and 2 rows", "4 numbers"),
@@ -276,6 +276,32 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
     }
 }
 
+/// The roller of the model is 6 mm long.
+#[test]
+fn prop_damage_wider_than_the_roller_is_that_cut_to_it() {
+    for (wide, cut) in [
+        ("{ rectangle = { length_mm = 3, width_mm = 20 } }", "{ rectangle = { length_mm = 3, width_mm = 6 } }"),
+        (
+            "{ profile = { arc_mm = [-1, 1], width_mm = [8, 40] } }",
+            "{ profile = { arc_mm = [-1, 1], width_mm = [6, 6] } }",
+        ),
+        (
+            "{ outline = { points_mm = [[-1, -9], [1, -9], [1, 2], [-1, 2]] } }",
+            "{ outline = { points_mm = [[-1, -3], [1, -3], [1, 2], [-1, 2]] } }",
+        ),
+    ] {
+        let [wide, cut] = [wide, cut].map(|shape| {
+            let loaded = with(OUTER, &[("defects.0.shape", shape)]).unwrap_or_else(|p| panic!("{}", report(&p)));
+            brinell::model::Model::new(&loaded.scenario).unwrap()
+        });
+        for k in -20..=20 {
+            let s = 1e-4 * f64::from(k);
+            let [wide, cut] = [&wide, &cut].map(|model| model.defects[0].damaged_length(s));
+            assert!((wide - cut).abs() < 1e-12 && cut <= 6e-3, "{wide} {cut} at {s}");
+        }
+    }
+}
+
 /// Where no number of rollers fits, no range of numbers is named.
 #[test]
 fn regress_a_row_without_room_has_no_range() {
@@ -291,6 +317,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
     let outline = |points: &str| format!("{{ outline = {{ polygons_mm = {points} }} }}");
     let crossing = outline("[[[-1,-1],[1,-1],[1,1],[-1,1]],[[0,0],[2,0],[2,2],[0,2]]]");
     let bow = outline("[[[0,0],[1,1],[1,0],[0,1]]]");
+    let long = outline("[[[-1,-9],[1,-9],[1,9],[-1,9]]]");
     let map = "{ depth_map = { ds_mm = 1, dz_mm = 1, columns = 3, rows = 12, depth_um = [REST] } }"
         .replace("REST", &["5"; 36].join(", "));
     let second = "{ on = \"outer-raceway\", depth_um = 5, center_deg = 1, shape = { circle = { diameter_mm = 2 } } }";
@@ -305,6 +332,20 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "crosses itself at s = 0.5 mm, z = 0.5 mm",
         ),
         ("defects.0.axial_offset_mm", "2.5", "defects.0.axial_offset_mm", "what is beyond is left out"),
+        (
+            "defects.0.shape",
+            "{ rectangle = { length_mm = 3, width_mm = 20 } }",
+            "defects.0.shape.rectangle.width_mm",
+            "20 mm is wider than the roller, whose length is 6 mm; it acts over 6 mm",
+        ),
+        ("defects.0.shape", "{ circle = { diameter_mm = 7 } }", "defects.0.shape.circle.diameter_mm", "7 mm is wider"),
+        (
+            "defects.0.shape",
+            "{ random = { length_mm = 3, width_mm = 7 } }",
+            "defects.0.shape.random.width_mm",
+            "it acts over 6 mm",
+        ),
+        ("defects.0.shape", long.as_str(), "defects.0.shape.outline.polygons_mm", "and the roller covers -3 to 3 mm"),
     ] {
         let loaded = with(OUTER, &[(key, value)]).unwrap_or_else(|p| panic!("{}", report(&p)));
         let warning = problem_of(&loaded.warnings, at);

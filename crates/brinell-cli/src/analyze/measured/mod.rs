@@ -46,9 +46,16 @@ pub(crate) struct Measured {
     pub(crate) speed: Option<StatedSpeed>,
     /// The scenario of the run that made the file.
     pub(crate) scenario: Option<Box<Loaded>>,
+    /// Further records of the machine, each with the shaft's speed in it, Hz.
+    pub(crate) others: Vec<(Measured, f64)>,
 }
 
 impl Measured {
+    /// Itself and the others.
+    pub(super) fn records(&self) -> impl Iterator<Item = &Measured> {
+        std::iter::once(self).chain(self.others.iter().map(|(record, _)| record))
+    }
+
     /// What is known of the run that made the signal: sentences.
     pub(super) fn of_the_run(&self) -> Vec<String> {
         let noise = self.silent().filter(|noise| *noise > 0.0);
@@ -146,6 +153,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         repeats,
         speed,
         scenario,
+        others: Vec::new(),
     })
 }
 

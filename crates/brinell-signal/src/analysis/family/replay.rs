@@ -12,7 +12,7 @@ fn family(row: &[&str]) -> Family {
     let all = Options::new(30.0, DefectOrders::of_geometry(9, 7.94, 39.04, 0.0).unwrap());
     let of_name = |(_, name, _): &(Component, &str, f64)| *name == row[1];
     let (component, name, order) = all.orders.defect_frequencies().find(of_name).unwrap();
-    let Limits { noise, limit, faint } = limits(component, number(2), &all);
+    let Limits { noise, limit, faint } = limits(component, number(2), 1.0, &all);
     let expected = order * all.shaft;
     let harmonics = row[5].chars().zip(1..).map(|(what, order)| Harmonic {
         order,

@@ -249,12 +249,27 @@ fn lit_numbers_of_rollers_follow_the_rule_that_the_known_ones_do() {
 
 #[test]
 fn lit_catalogue_sizes_are_those_of_the_designations() {
-    // ISO 15: the last two digits times five is the bore from 04 on; diameter series 0 of bore 04 to 10, 2 and 3 of 04 to 16, by
-    // their outside diameters.
-    let outside = |series: char, code: usize| match series {
-        '0' => [42.0, 47.0, 55.0, 62.0, 68.0, 75.0, 80.0][code - 4],
-        '2' => [47.0, 52.0, 62.0, 72.0, 80.0, 85.0, 90.0, 100.0, 110.0, 120.0, 125.0, 130.0, 140.0][code - 4],
-        _ => [52.0, 62.0, 72.0, 80.0, 90.0, 100.0, 110.0, 120.0, 130.0, 140.0, 150.0, 160.0, 170.0][code - 4],
+    // ISO 15: the last two digits times five is the bore from 04 on; diameter series 8, 0, 2 and 3 by their outside
+    // diameters.
+    const CODES: [usize; 24] =
+        [4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 24, 26, 28, 30, 32];
+    let outside = |series: char, code: usize| {
+        let of: &[f64] = match series {
+            '0' => &[
+                42.0, 47.0, 55.0, 62.0, 68.0, 75.0, 80.0, 90.0, 95.0, 100.0, 110.0, 115.0, 125.0, 130.0, 140.0, 145.0,
+                150.0, 160.0, 170.0, 180.0, 200.0, 210.0, 225.0,
+            ],
+            '2' => &[
+                47.0, 52.0, 62.0, 72.0, 80.0, 85.0, 90.0, 100.0, 110.0, 120.0, 125.0, 130.0, 140.0, 150.0, 160.0,
+                170.0, 180.0, 190.0, 200.0, 215.0, 230.0, 250.0, 270.0,
+            ],
+            '8' => &[32.0],
+            _ => &[
+                52.0, 62.0, 72.0, 80.0, 90.0, 100.0, 110.0, 120.0, 130.0, 140.0, 150.0, 160.0, 170.0, 180.0, 190.0,
+                200.0, 215.0, 225.0, 240.0, 260.0, 280.0, 300.0, 320.0,
+            ],
+        };
+        of[CODES.iter().position(|known| *known == code).unwrap()]
     };
     let mut count = 0;
     for entry in all() {
@@ -278,7 +293,7 @@ fn lit_catalogue_sizes_are_those_of_the_designations() {
             assert!((0.8..2.2).contains(&(c / c0)), "{}: C/C0", entry.name);
         }
     }
-    assert!(count >= 57, "{count}");
+    assert!(count >= 150, "{count}");
 }
 
 #[test]
@@ -298,25 +313,35 @@ fn lit_balls_follow_from_the_static_rating() {
     }
 }
 
+/// f_c of ISO 281 for radial ball bearings by d cos a / D_m.
+const FACTORS: [(f64, f64); 12] = [
+    (0.10, 55.5),
+    (0.12, 57.5),
+    (0.14, 58.8),
+    (0.16, 59.6),
+    (0.18, 59.9),
+    (0.20, 59.9),
+    (0.22, 59.6),
+    (0.24, 59.0),
+    (0.26, 58.2),
+    (0.28, 57.1),
+    (0.30, 56.0),
+    (0.32, 54.6),
+];
+
+fn factor(ratio: f64) -> f64 {
+    let above = FACTORS.iter().position(|(r, _)| *r > ratio).unwrap();
+    let [(r0, f0), (r1, f1)] = [FACTORS[above - 1], FACTORS[above]];
+    f0 + (f1 - f0) * (ratio - r0) / (r1 - r0)
+}
+
 #[test]
 fn lit_numbers_of_balls_follow_from_the_dynamic_rating() {
     // The static rating alone leaves the number of balls open: with d from C0 = f0 Z d^2, one ball more or less keeps it.
     // The dynamic one, C = b_m f_c Z^(2/3) d^1.8 (3.647 d^1.4 beyond 25.4 mm; ISO 281, b_m = 1.3), changes by 4 % then.
-    // SKF prints 4 to 7 % more than it, the same for every number known from elsewhere (6203 to 6206).
-    const FACTORS: [(f64, f64); 12] = [
-        (0.10, 55.5),
-        (0.12, 57.5),
-        (0.14, 58.8),
-        (0.16, 59.6),
-        (0.18, 59.9),
-        (0.20, 59.9),
-        (0.22, 59.6),
-        (0.24, 59.0),
-        (0.26, 58.2),
-        (0.28, 57.1),
-        (0.30, 56.0),
-        (0.32, 54.6),
-    ];
+    // SKF prints 4 to 7 % more than it, the same for every number known from elsewhere (6203 to 6206); of what it does
+    // not call Explorer, and NSK of the 6804 whose 13 balls are known, what it is.
+    const AS_ISO: [&str; 7] = ["6030", "6320", "6321", "6322", "6324", "6804", "16005"];
     let mut held = 0;
     for entry in all().iter().filter(|entry| entry.has_balls()) {
         let Some(printed) = entry.fact(DYNAMIC_RATING) else {
@@ -324,15 +349,14 @@ fn lit_numbers_of_balls_follow_from_the_dynamic_rating() {
         };
         let (number, d) = (bearing(entry, "rollers_per_row"), bearing(entry, "roller_diameter_mm"));
         let ratio = d / bearing(entry, "pitch_diameter_mm");
-        let above = FACTORS.iter().position(|(r, _)| *r > ratio).unwrap();
-        let [(r0, f0), (r1, f1)] = [FACTORS[above - 1], FACTORS[above]];
-        let factor = f0 + (f1 - f0) * (ratio - r0) / (r1 - r0);
+        let factor = factor(ratio);
         let size = if d > 25.4 { 3.647 * d.powf(1.4) } else { d.powf(1.8) };
         let share = printed / (1.3 * factor * number.powf(2.0 / 3.0) * size);
-        assert!((1.035..1.072).contains(&share), "{}: C is {share:.3} of ISO 281's", entry.name);
+        let may = if AS_ISO.contains(&entry.name.as_str()) { 0.985..1.012 } else { 1.035..1.072 };
+        assert!(may.contains(&share), "{}: C is {share:.3} of ISO 281's", entry.name);
         held += 1;
     }
-    assert_eq!(held, 41);
+    assert_eq!(held, 70);
 }
 
 #[test]
@@ -402,9 +426,71 @@ fn lit_another_makers_numbers_of_balls_follow_from_its_c0_and_f0() {
 }
 
 #[test]
+fn lit_6804_and_16005_follow_from_nsks_factor() {
+    // f0 of NSK's catalogue, pp. B8-11; the PHM 2012 challenge prints 13 balls of 3.5 mm in the 6804.
+    for (name, f0) in [("6804", 15.5), ("16005", 15.1)] {
+        let entry = find(name).unwrap();
+        let (number, d) = (bearing(entry, "rollers_per_row"), bearing(entry, "roller_diameter_mm"));
+        let c0 = entry.fact(STATIC_RATING).unwrap();
+        assert!((f0 * number * d * d / c0 - 1.0).abs() < 5e-3, "{name}");
+    }
+}
+
+#[test]
+fn lit_rows_of_series_become_what_the_written_entries_are() {
+    // The 6316 and the NU310 of catalogue.toml, by the rules of series.rs.
+    for row in [
+        "6316;;SKF General catalogue, pp. 308-311;80;170;39;130;86.5;3.6;108;142;8;28.575;10;30",
+        "NU310;NU 310 ECP;SKF General catalogue, pp. 530-531;50;110;27;127;112;1.14;65;97;92.1;30;60",
+    ] {
+        let made = of_lines(row);
+        let written = find(&made.name).unwrap();
+        for (made, written) in made.values.iter().zip(&written.values) {
+            assert_eq!((&made.key, made.estimated), (&written.key, written.estimated));
+            match (made.value.as_f64(), written.value.as_f64()) {
+                (Some(a), Some(b)) => assert!((a - b).abs() <= 6e-3 * b.abs(), "{}: {a} for {b}", made.key),
+                _ => assert_eq!(made.value, written.value),
+            }
+        }
+    }
+}
+
+#[test]
 fn lit_6203_orders_of_paderborn_and_uer204s_of_xjtu() {
     for (name, bpfo, bpfi) in [("6203", 3.05, 4.95), ("UER204", 3.083, 4.917)] {
         let k = per_turn(name);
         assert!((k.bpfo / bpfo - 1.0).abs() < 2e-3 && (k.bpfi / bpfi - 1.0).abs() < 2e-3);
+    }
+}
+
+#[test]
+fn lit_angular_contact_and_thrust_balls_follow_from_nsks_ratings() {
+    let named = |name: &str| crate::analysis::NamedBearing::find(name).unwrap();
+    // NSK's catalogue of rolling bearings, pp. B50-55: C and C0 of A, B and C in N, by ISO 281 and ISO 76.
+    for (size, c, c0) in [
+        ("7204", [14500.0, 13300.0, 14600.0], [8300.0, 7650.0, 8050.0]),
+        ("7205", [16200.0, 14800.0, 16600.0], [10300.0, 9400.0, 10200.0]),
+        ("7206", [22500.0, 20500.0, 23000.0], [14800.0, 13500.0, 14700.0]),
+        ("7207", [29700.0, 27100.0, 30500.0], [20100.0, 18400.0, 19900.0]),
+        ("7208", [35500.0, 32000.0, 36500.0], [25100.0, 23000.0, 25200.0]),
+        ("7209", [39500.0, 36000.0, 41000.0], [28700.0, 26200.0, 28800.0]),
+    ] {
+        for (k, letter) in ["A", "B", "C"].into_iter().enumerate() {
+            let b = named(&format!("{size}{letter}"));
+            let m = b.measures.unwrap();
+            let (z, cosine) = (b.elements as f64, m.contact_angle_deg.to_radians().cos());
+            let ratio = m.diameter_mm * cosine / m.pitch_mm;
+            let at_rest = crate::bearing::rating::ball_factor(ratio) * z * m.diameter_mm.powi(2) * cosine / c0[k];
+            let turning = 1.3 * factor(ratio) * cosine.powf(0.7) * z.powf(2.0 / 3.0) * m.diameter_mm.powf(1.8) / c[k];
+            assert!((at_rest - 1.0).abs() < 7e-3 && (turning - 1.0).abs() < 1e-2, "{} {at_rest} {turning}", b.name);
+        }
+    }
+    // p. B215: D and C0a = 61.6 Z d^2 (ISO 76, thrust ball bearings); d by BSF = D_m / (2 d).
+    let outsides = [52.0, 62.0, 68.0, 73.0, 78.0, 90.0, 95.0, 100.0, 105.0];
+    let ratings = [58e3, 78e3, 98.5e3, 105e3, 111e3, 159e3, 169e3, 189e3, 189e3];
+    for (code, (outside, c0)) in (6..).zip(outsides.into_iter().zip(ratings)) {
+        let b = named(&format!("512{code:02}"));
+        let d = 0.25 * (5.0 * f64::from(code) + outside) / b.orders().bsf.unwrap();
+        assert!((61.6 * b.elements as f64 * d * d / c0 - 1.0).abs() < 6e-3, "{}", b.name);
     }
 }

@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 use super::{Checker, short};
 use crate::scenario::{Defect, Element, Shape, Surface};
 
+/// Rollers' lengths beyond which a width of damage is a slip of the unit, and not damage over the whole raceway.
+pub(super) const MOST_ROLLERS: f64 = 10.0;
 const LENGTH: &str = "bearing.roller_length_mm";
 const BALL: &str = "bearing.roller_diameter_mm";
 
@@ -65,20 +67,22 @@ impl Checker<'_> {
             Shape::Image(_) | Shape::Svg(_) | Shape::Scan(_) => return,
         };
         let length = self.s.bearing.axial_reach_mm();
-        if width > length {
-            let (than, also) = match self.s.bearing.element {
-                Element::Roller => ("the roller, whose length is", LENGTH),
-                Element::Ball => ("any groove: two ball diameters are", BALL),
-            };
-            self.error(
-                &format!("defects.{i}.shape.{key}"),
-                format!("{} mm is wider than {than} {} mm", short(width), short(length)),
-                format!("<= {}", short(length)),
-                &[also],
-            );
+        let key = format!("defects.{i}.shape.{key}");
+        let (than, also) = match self.s.bearing.element {
+            Element::Roller => ("the roller, whose length is", LENGTH),
+            Element::Ball => ("any groove: two ball diameters are", BALL),
+        };
+        let message = format!("{} mm is wider than {than} {} mm", short(width), short(length));
+        let most = MOST_ROLLERS * length;
+        if width > most {
+            let message = format!("{message}, by more than damage is; lengths in um instead of mm?");
+            self.error(&key, message, format!("<= {}", short(most)), &[also]);
         } else if defect.axial_offset_mm != 0.0 {
             let half = 0.5e-3 * width;
-            self.on_raceway(i, defect, &format!("defects.{i}.shape.{key}"), (-half, half));
+            self.on_raceway(i, defect, &key, (-half, half));
+        } else if width > length {
+            let message = format!("{message}; it acts over {} mm, what is beyond is left out", short(length));
+            self.warn(&key, message, String::new(), &[also]);
         }
     }
 

@@ -1,5 +1,6 @@
 //! Outlines, depth maps, and damage that meets other damage.
 
+use super::defects::MOST_ROLLERS;
 use super::{Checker, short};
 use crate::defect::{self, Fault};
 use crate::document::{Problem, Severity};
@@ -169,6 +170,8 @@ impl Checker<'_> {
             // Here nothing is left of what was moved.
             if offset != 0.0 {
                 self.moved_off(i, covers(""), (low - offset, high - offset, half), &[key, LENGTH]);
+            } else if low < half && high > -half && high - low <= MOST_ROLLERS * 2.0 * half {
+                self.warn(key, covers("; what is beyond is left out"), String::new(), &[LENGTH]);
             } else {
                 let message = covers(hint_of_scale(high - low, 2.0 * half));
                 self.error(key, message, format!("z from -{0} to {0} mm", short(half)), &[LENGTH]);

@@ -118,8 +118,8 @@ impl Keys for Reader<'_> {
         let names = catalogue::all().iter().map(|entry| entry.name.as_str());
         let hint = match KnownBearing::find(name) {
             Some(KnownBearing::DataSet(_)) => {
-                ": of this bearing of a public data set the defect frequencies are known, and not all that a run needs; give a \
-                 bearing of the catalogue, or the keys of [bearing]"
+                ": of this bearing the defect frequencies are known (`brinell frequencies`, `analyze`), and not all that a run needs; \
+                 give a bearing of the catalogue, or the keys of [bearing]"
                     .to_owned()
             }
             _ => match (KnownBearing::of_no_known_type(name), catalogue::nearest_name(name)) {
