@@ -13,7 +13,8 @@ use brinell::observe::passes::{Event, Passes};
 use brinell::plausibility::{self, Beforehand};
 use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
-use brinell::summary::{self, Parts};
+use brinell::result::Parts;
+use brinell::summary;
 use brinell_report::{Report, html};
 use brinell_study::campaign::{BALANCED, Misses, assumed, count, of_results, run_spread};
 use pyo3::prelude::*;
@@ -259,7 +260,7 @@ impl Run {
 
     /// What its reader should know, as in [`Run::summary`].
     fn warnings(&self, py: Python<'_>) -> Vec<String> {
-        self.with_parts(py, None, summary::warnings)
+        self.with_parts(py, None, |parts| parts.warnings())
     }
 
     /// What `summary.json` holds.

@@ -4,7 +4,7 @@
 
 use brinell::plausibility::Beforehand;
 use brinell::scenario::{Defect, Scenario, Shape, Surface};
-use brinell::summary::Parts;
+use brinell::result::Parts;
 use brinell_report::{Report, html};
 use std::error::Error;
 

@@ -2,17 +2,16 @@
 
 use crate::accuracy::METHOD;
 use crate::bearing::kinematics::Kinematics;
-use crate::document::{Difference, Loaded, Provenance};
+use crate::document::{Difference, Provenance};
 use crate::kernel::Kernel;
 use crate::model::{self, Model};
 use crate::observe::load_zone::{BINS, RowLoad};
 use crate::observe::{Findings, passes};
-use crate::plausibility::{Beforehand, after};
-use crate::result::{Quantity, by_name, fields, quantities};
+use crate::result::{Parts, Quantity, by_name, fields, quantities};
 use crate::scenario::{Choice, Scenario, Speed};
 use crate::signal::Estimate;
 use crate::signal::ratio::Ratio;
-use crate::simulate::{End, Outcome, Simulation};
+use crate::simulate::{End, Outcome};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -21,23 +20,6 @@ use std::f64::consts::TAU;
 
 /// Version of the form of `summary.json`; one where a key was taken away or means something else.
 pub const FORM: u32 = 2;
-
-/// Everything that a summary is made of.
-#[derive(Debug, Clone, Copy)]
-pub struct Parts<'a> {
-    /// Scenario with provenance and warnings.
-    pub loaded: &'a Loaded,
-    /// The run as prepared.
-    pub simulation: &'a Simulation,
-    /// Its outcome.
-    pub outcome: &'a Outcome,
-    /// What was gathered.
-    pub findings: &'a Findings,
-    /// What was known before: the static load distribution, and warnings.
-    pub beforehand: &'a Beforehand,
-    /// What was gathered of the same bearing without its damage, where that was run too.
-    pub healthy: Option<&'a Findings>,
-}
 
 /// The file, in its order.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -87,7 +69,7 @@ pub fn to_json(parts: &Parts) -> Value {
         solver: Solver { method: METHOD, kernel: Kernel::in_use().name() },
         energy_audit_j: energy(outcome),
         assumed: loaded.provenance.iter().filter(|p| p.assumed).map(assumption).collect(),
-        warnings: warnings(parts),
+        warnings: parts.warnings(),
         sensor: sensor(parts),
         healthy: parts.healthy.map(|healthy| beside(findings, healthy)),
     };
@@ -353,14 +335,6 @@ struct Assumption<'a> {
 
 fn assumption(p: &Provenance) -> Assumption<'_> {
     Assumption { key: &p.key, value: &p.value, unit: p.unit, why: p.reason(), plausible: p.plausible }
-}
-
-/// What the reader of a run should know, warnings of the scenario first.
-#[doc(hidden)]
-pub fn warnings(parts: &Parts) -> Vec<String> {
-    let Parts { loaded, simulation, outcome, findings, beforehand, .. } = *parts;
-    let before = loaded.warnings.iter().chain(&beforehand.warnings);
-    before.map(ToString::to_string).chain(after(&loaded.scenario, simulation, outcome, findings)).collect()
 }
 
 /// What the sensor did: of the signal before noise and ADC, and of the noise added, from `analysed_from` on; clipped samples of the

@@ -6,7 +6,7 @@ use brinell::plausibility::{converted, doubtful, unsettled};
 use brinell::result::fields;
 use brinell::signal::Indicator;
 use brinell::simulate::End;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 

@@ -5,7 +5,7 @@ use brinell::channel::stiffness_unit;
 use brinell::observe::passes::{Pass, place};
 use brinell::scenario::Element;
 use brinell::statics::StaticLoadZone;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 
 /// Points of a pass that are drawn.
 const PASS_POINTS: usize = 600;

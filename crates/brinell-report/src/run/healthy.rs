@@ -5,7 +5,7 @@ use crate::Healthy;
 use crate::number::short;
 use brinell::observe::Findings;
 use brinell::signal::Spectrum;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 
 /// Curves at the places of the damaged bearing's own, whose envelope over orders is `orders`; what lies elsewhere is
 /// left out.

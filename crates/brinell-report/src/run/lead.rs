@@ -5,7 +5,7 @@ use crate::defects::Damage;
 use crate::number::short;
 use brinell::model::Model;
 use brinell::scenario::Surface;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 
 /// "8.3 × 4 mm defect, outer race: 22.8 m/s² RMS, 4.1 times the healthy bearing’s; BPFO found at 248.9 Hz".
 pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {

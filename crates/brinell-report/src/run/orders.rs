@@ -8,7 +8,7 @@ use brinell::analysis::HARMONICS;
 use brinell::observe::Findings;
 use brinell::scenario::Speed;
 use brinell::signal::{Rotation, Segments, envelope, psd, resample};
-use brinell::summary::Parts;
+use brinell::result::Parts;
 use std::f64::consts::TAU;
 
 /// Instants a second at which the shaft's angle is given to the resampling.

@@ -8,7 +8,7 @@ use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, DefectLine, Kind};
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 use std::f64::consts::TAU;
 
 /// Indicators that the table shows.

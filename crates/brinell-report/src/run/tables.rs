@@ -9,7 +9,7 @@ use brinell::observe::passes::place;
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
 use brinell::simulate::Outcome;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 
 pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();

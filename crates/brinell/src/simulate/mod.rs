@@ -280,6 +280,11 @@ impl Simulation {
         &self.channels
     }
 
+    /// Name, unit and description of each of [`Simulation::channels`], as files have them.
+    pub fn table(&self) -> impl Iterator<Item = (&str, &str, &str)> {
+        self.channels.iter().map(|c| (&*c.name, c.unit, &*c.description))
+    }
+
     /// The accelerations that pass the anti-alias filter: the sensor channels, x and y of the outer ring and the
     /// sensor's own if it has one, then those of the other rings and cages that are recorded.
     pub fn filtered(&self) -> &[Channel] {
