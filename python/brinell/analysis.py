@@ -135,7 +135,7 @@ def analyze(
     machine_class : str, optional
         Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW.
     sensitivity : str, optional
-        The sensor's, of a signal in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
+        Sensor sensitivity, for signals in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
     supply_hz : float, optional
         Frequency of the motor's supply where an inverter makes it, known to 0.5 %, 1 to 1000: lines at its multiples are excluded. Those of 50 and
         60 Hz by default, where three are present.

@@ -102,7 +102,8 @@ pub fn run_table<'a>(
     channels: impl Iterator<Item = (&'a str, &'a str, &'a str)>,
 ) -> (Vec<Column>, Metadata) {
     let all = std::iter::once(("t", "s", "time")).chain(channels);
-    let metadata = Metadata::default().with(keys::SCENARIO, scenario_toml).with(keys::VERSION, version).with_rate(rate_hz);
+    let metadata =
+        Metadata::default().with(keys::SCENARIO, scenario_toml).with(keys::VERSION, version).with_rate(rate_hz);
     (all.map(|(name, unit, about)| Column::new(name, unit, about)).collect(), metadata)
 }
 

@@ -11,9 +11,9 @@ mod tables;
 
 use crate::Report;
 use crate::number::short;
+use brinell::result::Parts;
 use brinell::scenario::{ModelKind, Scenario, Speed};
 use brinell::simulate::End;
-use brinell::result::Parts;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;

@@ -11,12 +11,12 @@ use brinell::model::{Layout, Model};
 use brinell::observe::Findings;
 use brinell::observe::slip::RowSlip;
 use brinell::plausibility::Beforehand;
+use brinell::result::Parts;
 use brinell::result::{RunResult, finish};
 use brinell::scenario::{self, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
-use brinell::result::Parts;
 use brinell_io::Column;
 use serde_json::{Map, Value as Json};
 

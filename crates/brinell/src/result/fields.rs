@@ -160,8 +160,8 @@ fields! {
 fields! {
     "Of a defect's entries and of its exits, in this order."
     IMPACTS: fn(&Impacts) -> Option<Estimate>;
-    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller enters the defect, within half its pass and before another leaves it; none where that is mostly too soon; other rollers and defects add to it" |i| i.peak;
-    EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect, within half its pass and before the next one enters; none where that is mostly too soon; other rollers and defects add to it" |i| i.peak;
+    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller enters the defect, within half its pass and before another leaves it; missing if rollers pass too close together; includes effects of other rollers and defects" |i| i.peak;
+    EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect, within half its pass and before the next one enters; missing if rollers pass too close together; includes effects of other rollers and defects" |i| i.peak;
 }
 
 /// A regular expression of a number's name, its unit (`None`: the channel's), what it is.

@@ -162,7 +162,7 @@ pub enum End {
     Failed(Error),
 }
 
-/// What remains of a run when its rows are gone.
+/// Run summary (no time series).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// How it ended.
