@@ -17,8 +17,10 @@ const LOW: f64 = 0.3;
 const HIGH: f64 = 0.7;
 /// Share of the samples that may lie beyond the two levels: spikes.
 const OUTLIERS: f64 = 1e-3;
-/// Share of the intervals that may be no whole pulse: one lost, or one too many.
+/// Share of the intervals that may be no whole number of pulses.
 const IRREGULAR: f64 = 0.05;
+/// How far from a whole number of steps an interval of two and more may be, steps.
+const LOST: f64 = 0.2;
 
 /// Why pulses give no speed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -33,7 +35,8 @@ pub enum NoSpeed {
     Fast(f64),
     /// They do not follow each other evenly.
     #[error(
-        "its rising edges are uneven: {irregular} of {intervals} intervals are no whole number of the usual {usual_ms:.3} ms, the first at {first_s:.4} s"
+        "its rising edges are uneven: {irregular} of {intervals} intervals are no whole number of the usual {usual_ms:.3} ms, the first at {first_s:.4} s{}",
+        if 4 * irregular > *intervals { "; a channel without pulses looks so" } else { "" }
     )]
     Uneven {
         /// Intervals that are none.
@@ -157,7 +160,9 @@ fn counted(edges: &[f64], fs: f64) -> Result<Vec<(f64, f64)>, NoSpeed> {
         let near = middle(&steps[i.saturating_sub(6)..steps.len().min(i + 5)]);
         let (before, number) = counted[counted.len() - 1];
         let turns = (edge - before) / near;
-        if (turns - 1.0).abs() > 0.4 {
+        // One that is lost leaves a whole number of steps.
+        let off = if turns < 1.5 { (turns - 1.0).abs() / 0.4 } else { (turns - turns.round()).abs() / LOST };
+        if off > 1.0 {
             irregular += 1;
             first = first.or(Some(before));
         }

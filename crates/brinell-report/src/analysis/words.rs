@@ -32,7 +32,7 @@ pub fn called(a: &Analysis) -> String {
         Verdict::CannotTell => {
             let grown = a.families.iter().filter(|f| f.finding == Finding::Grown);
             let unexplained = a.unexplained().map(|what| match what {
-                Unexplained::Impacts(kurtosis) => format!(", impacts (kurtosis {})", short(kurtosis, 3)),
+                Unexplained::Impacts(kurtosis, _) => format!(", impacts (kurtosis {})", short(kurtosis, 3)),
                 Unexplained::Level(growth) => format!(", RMS {growth:.1} times the healthy record's"),
             });
             "cannot tell".to_owned()

@@ -20,6 +20,9 @@ pub enum AnalysisError {
         /// The least that would do, Hz.
         needed_hz: f64,
     },
+    /// No vibration.
+    #[error("its values only {0}, sample after sample: a column of times, or a counter, and no vibration")]
+    OneWay(&'static str),
     /// One of several records.
     #[error("record {number}: {why}")]
     InRecord {
@@ -57,7 +60,9 @@ pub enum AnalysisError {
     },
     /// Frequencies of two raceways that exchange their places.
     #[error(
-        "BPFO {bpfo:.4}x and BPFI {bpfi:.4}x: expected the inner race to be passed more often than the outer, which rests"
+        "BPFO {bpfo:.4}x and BPFI {bpfi:.4}x: {}",
+        if bpfo == bpfi { "elements pass both races alike, as in a thrust bearing, and no line tells which of them is damaged; give --bpfo and --bsf for what can be told" }
+        else { "expected the inner race to be passed more often than the outer, which rests" }
     )]
     Passes {
         /// Over the shaft's.

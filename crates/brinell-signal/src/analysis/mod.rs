@@ -60,7 +60,9 @@ pub use words::{COLUMNS, HEADLINES, indicator_words, level_words};
 use crate::error::require;
 use crate::lengths::fast_up_to;
 use crate::parallel::join;
-use crate::{Blocks, Estimate, Indicator, Kurtogram, Segments, Spectrum, Transformed, VelocityBands, kurtogram, psd};
+use crate::{
+    Band, Blocks, Estimate, Indicator, Kurtogram, Segments, Spectrum, Transformed, VelocityBands, kurtogram, psd,
+};
 use error::LARGEST;
 use hypotheses::{Best, SpeedEvidence};
 use together::{Envelopes, Paced};
@@ -115,12 +117,15 @@ pub fn analyze_records(records: &[(&[f64], f64)], fs: f64, options: &Options) ->
     let view = view(&record, &envelopes, &transformed)?;
     let damaged = record.is_damage();
     let each: Vec<&[f64]> = prepared.iter().map(|r| &r.x[..]).collect();
+    let silent = !damaged && !record.options.exact;
+    let above = silent.then(|| Some((kurtosis_in(view.band, &each, fs, record.shaft)?, view.band.low))).flatten();
     let means: Vec<(Estimate, f64)> = (prepared.iter().zip(shares(&each)))
         .map(|(r, share)| (Estimate { value: r.mean, interval: None }, share))
         .collect();
     Ok(Analysis {
         sample_rate: fs,
         records: count,
+        shortest: each.iter().map(|x| x.len()).min().unwrap_or(0) as f64 / fs,
         samples: each.iter().map(|x| x.len()).sum(),
         mean: Estimate::pooled(&means, 1).value,
         shaft: record.shaft,
@@ -142,6 +147,7 @@ pub fn analyze_records(records: &[(&[f64], f64)], fs: f64, options: &Options) ->
         level_growth: None,
         level_range: None,
         kurtosis_beside: None,
+        kurtosis_above: above,
         beside_damage: false,
         options: record.options,
     })
@@ -246,6 +252,15 @@ fn view(record: &Record, envelopes: &Envelopes, records: &[Paced]) -> Result<Vie
     Ok(View { band, choice, spectrum, mean })
 }
 
+/// Kurtosis of what lies in a band, averaged over records by their length.
+fn kurtosis_in(band: Band, records: &[&[f64]], fs: f64, shaft: f64) -> Option<f64> {
+    let each = records
+        .iter()
+        .zip(shares(records))
+        .map(|(x, share)| Some(share * band_level(x, fs, band, shaft)?.kurtosis.value));
+    each.sum()
+}
+
 /// Of records less their means, averaged over revolutions of `revolution` samples.
 fn indicators(records: &[&[f64]], revolution: f64) -> Vec<(Indicator, Estimate)> {
     let blocks: Vec<Blocks> = records.iter().map(|x| Blocks::of(x, revolution)).collect();
@@ -302,6 +317,10 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
         && x.iter().all(|v| *v == value)
     {
         return Err(AnalysisError::Constant { samples: x.len(), value });
+    }
+    let one_way = |rising: bool| x.windows(2).all(|w| w[0] == w[1] || (w[0] < w[1]) == rising);
+    if let Some(rises) = [true, false].into_iter().find(|rises| one_way(*rises)) {
+        return Err(AnalysisError::OneWay(if rises { "rise" } else { "fall" }));
     }
     let all = options.orders.defect_frequencies();
     let Some((_, name, highest)) = all.max_by(|a, b| a.2.total_cmp(&b.2)) else {

@@ -48,8 +48,8 @@ impl Verdict {
 /// What shows in the signal itself and in no line of the bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unexplained {
-    /// Impacts, by this kurtosis.
-    Impacts(f64),
+    /// Impacts, by this kurtosis, of what lies above a frequency, Hz, or of the whole record.
+    Impacts(f64, Option<f64>),
     /// An RMS so many times that of the healthy machine's record.
     Level(f64),
 }
@@ -58,7 +58,7 @@ impl Unexplained {
     /// In files: `impacts`, `level`.
     pub fn key(self) -> &'static str {
         match self {
-            Unexplained::Impacts(_) => "impacts",
+            Unexplained::Impacts(..) => "impacts",
             Unexplained::Level(_) => "level",
         }
     }
@@ -86,6 +86,8 @@ pub struct Analysis {
     pub sample_rate: f64,
     /// Records analysed together.
     pub records: usize,
+    /// Length of the shortest of them, s.
+    pub shortest: f64,
     /// Samples analysed, of all records.
     pub samples: usize,
     /// Mean that was removed.
@@ -128,6 +130,8 @@ pub struct Analysis {
     pub level_range: Option<Band>,
     /// Kurtosis in that range, and of the healthy machine's record there.
     pub kurtosis_beside: Option<[f64; 2]>,
+    /// Kurtosis of what lies in the band shown, and the band's lower edge, Hz, where no damage is called.
+    pub kurtosis_above: Option<(f64, f64)>,
     /// Whether another bearing of the machine is damaged: impacts and level may be its own.
     pub beside_damage: bool,
 }
@@ -188,12 +192,15 @@ impl Analysis {
 
     /// Impacts, or a level that has risen, whatever explains them. A simulation has nothing that is not known.
     pub fn impacts_or_level(&self) -> Option<Unexplained> {
-        let [own, healthy] = match self.kurtosis_beside {
-            Some(both) => both,
-            None => [self.indicator(Indicator::Kurtosis)?.value, OF_NOISE],
+        let whole = self.indicator(Indicator::Kurtosis)?.value;
+        // Unbalance hides impacts from the kurtosis of the whole record.
+        let ([own, healthy], above) = match (self.kurtosis_beside, self.kurtosis_above) {
+            (Some(both), _) => (both, None),
+            (None, Some((kurtosis, low))) if kurtosis > whole => ([kurtosis, OF_NOISE], Some(low)),
+            _ => ([whole, OF_NOISE], None),
         };
         let is_new = own >= IMPULSIVE && own - OF_NOISE >= NEW * (healthy - OF_NOISE);
-        let impacts = is_new.then_some(Unexplained::Impacts(own));
+        let impacts = is_new.then_some(Unexplained::Impacts(own, above));
         let level = self.level_growth.filter(|g| *g >= CHANGED).map(Unexplained::Level);
         impacts.or(level).filter(|_| !self.options.exact)
     }

@@ -89,7 +89,7 @@ impl fmt::Display for Flaw {
             ),
             Flaw::OtherRate { fits, given, lines } => write!(
                 f,
-                "{lines} lines would be the shaft's first ten at a sample rate of {fits} Hz, and hardly any are at the {given} Hz given: is the rate right? \
+                "{lines} lines would be the shaft's first ten at a sample rate of {fits} Hz, and hardly any are at the {given} Hz given: is the rate right, or the speed? \
                  A shaft that turns {} times as fast has the same lines",
                 short(given / fits, 3)
             ),

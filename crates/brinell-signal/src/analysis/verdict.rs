@@ -19,9 +19,9 @@ const ONE_SLIP: f64 = 0.002;
 const ONE_LINE: f64 = 2.0;
 /// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the
 /// spectrum.
-const TELLING: f64 = 20.0;
+pub(super) const TELLING: f64 = 20.0;
 /// The same for the cage's own lines.
-const TELLING_CAGE: f64 = 40.0;
+pub(super) const TELLING_CAGE: f64 = 40.0;
 
 /// What was looked at, how long the shortest record is, and what was found.
 pub(super) struct Record {

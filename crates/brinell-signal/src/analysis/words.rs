@@ -7,6 +7,7 @@ use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::result::CHANGED;
+use super::verdict::{TELLING, TELLING_CAGE};
 use super::{Analysis, Flaw, Unexplained, Verdict};
 use crate::Indicator;
 use crate::digits;
@@ -229,6 +230,12 @@ fn left_open(analysis: &Analysis) -> Vec<String> {
             "{} short, {turns:.0} turns of the shaft: {SHORT:.0}, which take {:.1} s, may show more.",
             if analysis.records > 1 { "Together the records are" } else { "The record is" },
             SHORT / analysis.shaft
+        ));
+    }
+    let ftf = analysis.options.orders.ftf.filter(|_| analysis.records > 1);
+    if let Some(cage) = ftf.map(|ftf| analysis.shortest * analysis.shaft * ftf).filter(|cage| *cage < TELLING) {
+        text.push(format!(
+            "The shortest record holds {cage:.0} turns of the cage: damage of a rolling element takes {TELLING:.0} in each to be called, of the cage {TELLING_CAGE:.0}."
         ));
     }
     text

@@ -447,6 +447,7 @@ fn dress(columns: &mut [Column], lvm: &Lvm) {
         } else if is_x {
             // Empty where `X_Columns` says that there are none.
             column.absent = lvm.no_x;
+            column.unit = column.unit.take().or_else(|| lvm.seconds.then(|| "s".into()));
         } else {
             (column.unit, column.rate_hz) = (said.unit, said.rate_hz);
             if said.is_unused {

@@ -17,7 +17,7 @@ pub(super) struct Lvm {
     units: Vec<String>,
     steps: Vec<String>,
     samples: Vec<String>,
-    seconds: bool,
+    pub(super) seconds: bool,
 }
 
 /// What the headers say of one column of values.

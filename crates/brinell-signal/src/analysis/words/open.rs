@@ -52,10 +52,11 @@ pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
 /// What shows in the signal itself, and what may cause it.
 fn not_explained(analysis: &Analysis, what: Unexplained) -> String {
     match what {
-        Unexplained::Impacts(kurtosis) => format!(
-            "Cannot tell: the record has impacts (kurtosis {}, {}) that no line of this bearing explains: damage too weak to call, another part, another \
+        Unexplained::Impacts(kurtosis, above) => format!(
+            "Cannot tell: the record has impacts (kurtosis {}{}, {}) that no line of this bearing explains: damage too weak to call, another part, another \
              bearing than the one given, or a wrong speed.",
             digits::short(kurtosis, 3),
+            above.map_or(String::new(), |low| format!(" above {low:.0} Hz")),
             match analysis.kurtosis_beside {
                 Some([_, healthy]) => format!("{} in the healthy record", digits::short(healthy, 3)),
                 None => "3 for noise".into(),
