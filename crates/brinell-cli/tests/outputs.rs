@@ -89,7 +89,7 @@ fn regress_summary_has_the_documented_members() {
     assert_eq!(s["name"], "short");
     assert_eq!(s["brinell"], env!("CARGO_PKG_VERSION"));
     assert_eq!(s["status"], serde_json::json!({ "complete": true }));
-    assert_eq!(s["simulated"]["samples"], 7681);
+    assert_eq!(s["quantities"]["work.samples"]["value"], 7681.0);
     assert_eq!(s["quantities"]["reached"]["value"], 0.3);
     // The law of the paper is fed by its damage; the same words on the terminal.
     let warnings = s["warnings"].as_array().unwrap();
