@@ -38,7 +38,7 @@ class Analysis:
     families: list[dict[str, Any]]
     """Each defect frequency with its harmonics and sidebands, score and modulation; what is damage comes first."""
     severity: dict[str, Any]
-    """``velocity_rms_10_1000_hz`` with ``value``, ``unit`` and ``interval_95``, or ``why`` there is none; ``iso_20816_3`` with the ``zone`` where a
+    """``velocity_rms_10_1000_hz`` with ``value``, ``unit``, ``low`` and ``high``, or ``why`` there is none; ``iso_20816_3`` with the ``zone`` where a
     machine's class was given; levels of the ``band_shown``."""
     drift: dict[str, Any] | None
     """How the shaft's speed changes during the record, ``lowest`` and ``highest`` in r/min and when, where lines tell it; None where it is steady."""
@@ -135,7 +135,7 @@ def analyze(
     machine_class : str, optional
         Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW.
     sensitivity : str, optional
-        The sensor's, of a signal in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
+        Sensor sensitivity, for signals in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
     supply_hz : float, optional
         Frequency of the motor's supply where an inverter makes it, known to 0.5 %, 1 to 1000: lines at its multiples are excluded. Those of 50 and
         60 Hz by default, where three are present.

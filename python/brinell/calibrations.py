@@ -196,10 +196,9 @@ def calibrate(
     native = _brinell.calibrate(base._native, keys, wanted, samples, signal, seed, budget, jobs_of(jobs), progress, folder)
     report = native.report()
     values = {key["key"]: key["value"] for key in report["keys"]}
-    ends = {key["key"]: key["interval_95"] for key in report["keys"]}
     found = Calibration(
         values=values,
-        intervals={key: None if pair is None else (pair[0], pair[1]) for key, pair in ends.items()},
+        intervals={key["key"]: None if key["low"] is None else (key["low"], key["high"]) for key in report["keys"]},
         residuals={target["name"]: target["residual"] for target in report["targets"]},
         met=report["met"],
         verdict=report["verdict"],

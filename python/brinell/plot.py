@@ -261,7 +261,7 @@ def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 5, 
     found = result.envelope
     if found is None:
         raise ValueError("the run is too short for an envelope spectrum")
-    damage = {d["frequency"] for d in result.defects}
+    damage = {d["line"]["name"] for d in result.defects if "line" in d}
     hertz = result.summary["defect_frequencies"]["hz"] or {}
     marks = [(label, hertz[key], label in damage) for label, key in _FREQUENCIES.items() if hertz.get(key)]
     if to_hz is None:

@@ -153,10 +153,10 @@ class Result:
         Ends of 95 % intervals have ``.low`` and ``.high`` behind the name.
         """
         values: dict[str, float] = {}
-        for name, _, value, low, high in self._native().quantities():
-            values[name] = np.nan if value is None else value
-            if low is not None and high is not None:
-                values[name + ".low"], values[name + ".high"] = low, high
+        for name, number in self.summary["quantities"].items():
+            values[name] = np.nan if number["value"] is None else number["value"]
+            if number.get("low") is not None:
+                values[name + ".low"], values[name + ".high"] = number["low"], number["high"]
         return values
 
     @cached_property
@@ -182,10 +182,10 @@ class Result:
         ``force_n``."""
         return self._native().passes()
 
-    @cached_property
+    @property
     def defects(self) -> list[dict[str, Any]]:
-        """Where each defect lies, the frequency of its impacts in pure rolling and as found."""
-        return self._native().defects()
+        """Where each defect lies, how large it is, and the name of its line; what was found of it is under ``defectN.`` in ``quantities``."""
+        return self.summary["defects"]
 
     def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
         """Which defect frequencies are detected in this run, its start (``analysed_from_s``) left out.
@@ -213,7 +213,7 @@ class Result:
             if isinstance(speed, list):
                 raise ValueError("speed_rpm: needed, for the scenario's varies")
             options["speed_rpm"] = speed
-        first = round(self.summary["simulated"]["analysed_from_s"] * self.rate_hz)
+        first = round(self.summary["quantities"]["analysed_from"]["value"] * self.rate_hz)
         settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario, "simulated": True}
         if not options.keys() & {"bearing", "sensitivity", "simulated"}:
             settings["_run"] = (channel, first / self.rate_hz)

@@ -95,7 +95,7 @@ def test_analytic_a_sensitivity_turns_volts_into_vibration():
     velocity = [found.severity["velocity_rms_10_1000_hz"] for found in (plain, volts)]
     assert velocity[0]["unit"] == "mm/s"
     np.testing.assert_allclose(velocity[0]["value"], velocity[1]["value"], rtol=1e-9)
-    low, high = velocity[0]["interval_95"]
+    low, high = velocity[0]["low"], velocity[0]["high"]
     assert low <= velocity[0]["value"] <= high
     unscaled = brinell.analyze(x, unit="V", **KNOWN).severity["velocity_rms_10_1000_hz"]
     assert unscaled["value"] is None and "neither an acceleration nor a velocity" in unscaled["why"]

@@ -42,11 +42,11 @@ start = "equilibrium"
     changed = [word for setting in settings for word in ("--set", setting)]
     subprocess.run([command, "run", folder / f"{number}.toml", "-o", run, "--no-report", "--quiet", *changed], check=True)
     told = subprocess.run([command, "analyze", run, "-o", folder / f"{number}-analysis", "--json", "-"], check=True, capture_output=True)
-    channels = json.loads((run / "summary.json").read_text())["indicators"]["channels"]
+    numbers = json.loads((run / "summary.json").read_text())["quantities"]
     # What a measured signal would be: lines of passing rollers are no damage of a run that had none.
     told = json.loads(told.stdout)
     called = told["verdict"]["says"] == "damage" or any(f["says"] == "as_before" for f in told["families"])
-    return called, channels["sensor_ay"]["anti-aliased"]["rms"]["value"]
+    return called, numbers["sensor_ay.rms"]["value"]
 
 
 def table(command, title, bearings, speeds, loads, settings):

@@ -90,9 +90,9 @@ def main(brinell):
             late = signals["t"] > 0.1
             cells = []
             for axis in "xy":
-                rms = summary["indicators"]["channels"][f"sensor_a{axis}"]["anti-aliased"]["rms"]
+                rms = summary["quantities"][f"sensor_a{axis}.rms"]
                 cells.append(f"{rms['value']:.3g} ({rms['low']:.3g} to {rms['high']:.3g})")
-            cells.append(f"{summary['indicators']['channels']['sensor_ax']['anti-aliased']['kurtosis']['value']:.3g}")
+            cells.append(f"{summary['quantities']['sensor_ax.kurtosis']['value']:.3g}")
             if model == "tilting":
                 relative = [signals[f"inner_tilt_{a}"] - signals[f"outer_tilt_{a}"] for a in "xy"]
                 cells.append(f"{1e6 * np.sqrt(np.mean([r[late] ** 2 for r in relative]) * 2):.3g}")
@@ -110,7 +110,7 @@ def main(brinell):
                 # What holds rings against tilting has no effect in the plane.
                 own = [s for s in settings if model == "tilting" or "tilt_stiffness" not in s]
                 summary, _ = run(brinell, Path(folder), own, model)
-            rms.append(summary["indicators"]["channels"]["sensor_ax"]["anti-aliased"]["rms"])
+            rms.append(summary["quantities"]["sensor_ax.rms"])
         cells = [f"{r['value']:.3g} ({r['low']:.3g} to {r['high']:.3g})" for r in rms]
         print(f"| {name} | {' | '.join(cells)} | {rms[1]['value'] / rms[0]['value']:.2f} |", flush=True)
 

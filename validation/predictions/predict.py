@@ -115,7 +115,7 @@ def adelaide(brinell, work, edge, speed, load, *options):
             dips.append(np.ptp(across[around]))
             entries.append(np.abs(acceleration[before]).max())
             exits.append(np.abs(acceleration[after]).max())
-    rms = summary["indicators"]["channels"]["sensor_ay"]["anti-aliased"]["rms"]
+    rms = summary["quantities"]["sensor_ay.rms"]
     ratio = [b / a for a, b in zip(entries, exits)]
     row = {"edge_deg": edge, "speed_hz": speed, "load_n": load, "passes": len(dips)}
     for name, values in (("entry_to_exit_ms", gaps), ("displacement_um", dips), ("exit_over_entry", ratio)):
@@ -131,9 +131,9 @@ def saarland(brinell, work, speed, load, *options):
         shape="rectangle = { length_mm = 2.0, width_mm = 3.0 }", duration=round(RAMP_S + 2.0 + 600.0 / speed, 6),
     )
     summary, _ = run(brinell, work / name, text, "--signals", "none", *options)
-    line, healthy = summary["defects"][0]["frequency"], summary["healthy"]
+    numbers, healthy = summary["quantities"], summary["healthy"]
     return {
-        "speed_rpm": speed, "load_n": load, "bpfi_hz": line["pure_rolling_hz"], "found_hz": line["found_hz"],
+        "speed_rpm": speed, "load_n": load, "bpfi_hz": numbers["defect1.pure_rolling_frequency"]["value"], "found_hz": numbers["defect1.frequency"]["value"],
         "rms_over_healthy": healthy["ratio"]["value"], "ratio_low": healthy["ratio"].get("low"), "ratio_high": healthy["ratio"].get("high"),
     }, summary
 

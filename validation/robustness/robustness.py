@@ -162,8 +162,8 @@ def of_halves(folder, brinell):
     with ThreadPoolExecutor(2) as pool:
         for first, second in pool.map(one, records(folder)):
             # Skewness alone may be negative: of the others the interval is a factor. The record's peak has none.
-            for name in (name for name in first if name != "skewness" and first[name].get("interval_95")):
-                values, ends = zip(*((half[name]["value"], half[name]["interval_95"]) for half in (first, second)))
+            for name in (name for name in first if name != "skewness" and first[name].get("low") is not None):
+                values, ends = zip(*((half[name]["value"], (half[name]["low"], half[name]["high"])) for half in (first, second)))
                 widths = [math.log(high / low) / 2 for low, high in ends]
                 count[name] += 1
                 agree[name] += abs(math.log(values[0] / values[1])) <= math.hypot(*widths)

@@ -28,7 +28,7 @@ pub(crate) struct ScenarioArgs {
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
     A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with those of another scenario or command \
-    unless --overwrite is given. It removes only files that summary.json, or the other command's like of it, lists as results; finished runs of a \
+    unless --overwrite is given. It removes only files that summary.json (or the other command's manifest) lists as results; finished runs of a \
     sweep, a calibration, a reproduction or a data set never. No command writes over a file that it reads.\n\n\
     Several scenarios run side by side, one to a core, each into FOLDER/STEM, STEM being its file's name without ending. All are checked \
     before any runs; one that fails stops no other.\n\n\
@@ -119,6 +119,9 @@ pub(crate) struct SchemaArgs {
     /// Of the plans of `brinell dataset`
     #[arg(long)]
     pub(crate) plan: bool,
+    /// Of summary.json, which every run writes
+    #[arg(long, conflicts_with = "plan")]
+    pub(crate) summary: bool,
 }
 
 #[derive(Debug, Subcommand)]

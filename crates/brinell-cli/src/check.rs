@@ -271,10 +271,10 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     let by = short(1e6 * zone.sunk.abs(), 3);
     // Exact levers are those of where the rings are.
     if s.simulation.geometry == GeometryLaw::Exact {
-        return say!("  both rings sink         {by} um on their supports");
+        return say!("  support deflection      {by} um");
     }
     say!(
-        "  both rings sink         {by} um on their supports: FTF and BPFO come out up to {} % {} than of a centred bearing",
+        "  support deflection      {by} um: FTF and BPFO come out up to {} % {} than of a centred bearing",
         short(100.0 * zone.sunk.abs() / model.geometry.pitch_radius, 2),
         if zone.sunk < 0.0 { "lower" } else { "higher" }
     );

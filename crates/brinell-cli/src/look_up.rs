@@ -14,9 +14,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 pub(crate) fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
-    let schema = match args.plan {
-        true => brinell_study::design::plan_schema(),
-        false => brinell::document::json_schema(),
+    let schema = match (args.plan, args.summary) {
+        (true, _) => brinell_study::design::plan_schema(),
+        (_, true) => brinell::summary::json_schema(),
+        _ => brinell::document::json_schema(),
     };
     say::json(&schema);
     Ok(ExitCode::SUCCESS)

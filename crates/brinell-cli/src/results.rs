@@ -258,8 +258,8 @@ impl Place<'_> {
     }
 
     /// The earlier results in the folder, which the new ones replace; nothing is changed. `writes` are the names that
-    /// will be written whatever happens; `same` says whether the earlier results, by what tells of them, are of the
-    /// same.
+    /// will be written whatever happens; `same`: do the earlier results (per their manifest) belong to the
+    /// same subject?
     ///
     /// # Errors
     /// Where results of another command, or of another scenario, lie there and `overwrite` was not requested, or files

@@ -42,7 +42,7 @@ fn regress_words_and_json_of_outer_race_damage() {
         "shaft speed 1800 r/min, from --speed",
         "Outer race damage, clear: BPFO at 107.",
         "of pure rolling), harmonics 1, 2, 3, 4, 5 up to",
-        "outer race       BPFO       107.",
+        "outer race       BPFO          107.",
         "wrote look/report.html",
     ]);
     let found = json(&folder.path().join("look/analysis.json"));

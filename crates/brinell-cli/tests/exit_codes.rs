@@ -162,7 +162,7 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
     assert!(rows.len() > 10 && rows.len() < 513, "{} rows", rows.len());
     assert!(rows.iter().flatten().all(|x| x.is_finite()));
     assert_eq!(summary["status"]["complete"], false);
-    assert_eq!(summary["simulated"]["samples"], rows.len());
+    assert_eq!(summary["quantities"]["work.samples"]["value"], rows.len() as f64);
     let reason = summary["status"]["reason"].as_str().unwrap();
     assert!(call.err.ends_with(&format!("error: {reason}\n")));
     // The footer's metadata is there as plain text.
@@ -212,7 +212,7 @@ mod interrupted {
         let (_, rows) = csv(&output.join("signals.csv"));
         let summary = json(&output.join("summary.json"));
         assert!(!rows.is_empty());
-        assert_eq!(summary["simulated"]["samples"], rows.len());
+        assert_eq!(summary["quantities"]["work.samples"]["value"], rows.len() as f64);
         assert_eq!(summary["simulated"]["duration_s"], 300.0);
         assert_eq!(summary["status"]["complete"], false);
         let parquet = fs::read(output.join("signals.parquet")).unwrap();

@@ -89,8 +89,8 @@ fn regress_summary_has_the_documented_members() {
     assert_eq!(s["name"], "short");
     assert_eq!(s["brinell"], env!("CARGO_PKG_VERSION"));
     assert_eq!(s["status"], serde_json::json!({ "complete": true }));
-    assert_eq!(s["simulated"]["samples"], 7681);
-    assert_eq!(s["simulated"]["reached_s"], 0.3);
+    assert_eq!(s["quantities"]["work.samples"]["value"], 7681.0);
+    assert_eq!(s["quantities"]["reached"]["value"], 0.3);
     // The law of the paper is fed by its damage; the same words on the terminal.
     let warnings = s["warnings"].as_array().unwrap();
     assert_eq!(warnings.len(), 1, "{warnings:?}");
@@ -99,25 +99,23 @@ fn regress_summary_has_the_documented_members() {
     assert!(call.out.contains(fed), "{}", call.out);
     let bpfo = s["defect_frequencies"]["hz"]["bpfo"].as_f64().unwrap();
     assert!((bpfo - 131.05).abs() < 0.01, "{bpfo}");
-    assert_eq!(s["defects"][0]["frequency"]["name"], "BPFO");
-    for channel in &typed(CHANNELS)[1..] {
-        let channel = &s["indicators"]["channels"][*channel];
-        assert!(channel["unit"].is_string(), "{channel}");
-    }
+    assert_eq!(s["defects"][0]["line"]["name"], "BPFO");
+    let number = |name: &str| s["quantities"][name]["value"].as_f64().unwrap_or_else(|| panic!("{name}"));
     // What the outer ring does at the samples, and what a data logger would hold of it.
-    for (channel, kind) in [("outer_ax", "instantaneous"), ("sensor_ax", "anti-aliased")] {
+    for channel in ["outer_ax", "sensor_ax"] {
         for indicator in ["rms", "peak_to_peak", "kurtosis", "crest_factor"] {
-            let e = &s["indicators"]["channels"][channel][kind][indicator];
+            let e = &s["quantities"][format!("{channel}.{indicator}")];
+            assert!(e["unit"].is_string(), "{channel} {indicator}: {e}");
             for member in ["value", "low", "high"] {
                 assert!(e[member].is_number(), "{channel} {indicator} {member}: {e}");
             }
         }
     }
-    assert!(s["slip"]["rows"][0]["cage"].is_number());
+    number("row1.cage_slip");
     assert!(s["load_zone"]["static"]["largest_contact_force_n"].as_f64().unwrap() > 0.0);
-    assert!(s["solver"]["steps"].as_u64().unwrap() > 0);
-    assert!(s["energy_audit_j"]["residual_over_turnover"].as_f64().unwrap().abs() < 0.02);
-    assert!(s["momentum_audit"]["largest_relative_imbalance"].as_f64().unwrap() < 1e-12);
+    assert!(number("work.steps") > 0.0);
+    assert!(number("audit.energy_residual_over_turnover").abs() < 0.02);
+    assert!(number("audit.momentum_imbalance") < 1e-12);
     // Every value that `check` lists as assumed, and no other.
     let check = brinell(here, &["check", "s.toml", "--assumptions"]).exits(0);
     let listed: Vec<String> = check
@@ -280,10 +278,11 @@ fn regress_a_run_too_short_to_look_for_a_frequency_says_so() {
     let call = brinell(here, &args).exits(0);
     let why = "too short to look for BPFO: 0.1 periods of 24; a duration_s of ";
     call.says(&[why, " would do; pure rolling 131.05 Hz", " of the record, kurtosis"]);
-    let frequency = &json(&here.join("o/summary.json"))["defects"][0]["frequency"];
+    let summary = json(&here.join("o/summary.json"));
+    let found = &summary["quantities"]["defect1.frequency"];
     assert!(
-        frequency["found_hz"].is_null() && frequency["too_short"].as_str().unwrap().starts_with(why),
-        "{frequency}"
+        found["value"].is_null() && summary["defects"][0]["line"]["too_short"].as_str().unwrap().starts_with(why),
+        "{summary}"
     );
     let page = fs::read_to_string(here.join("o/report.html")).unwrap();
     assert!(page.contains(why) && page.contains("with the damage; load zone"));

@@ -6,7 +6,7 @@ use std::path::Path;
 const KEY: &str = "contact.damping_time_us";
 
 fn rms(summary: &Path) -> f64 {
-    json(summary)["indicators"]["channels"]["sensor_ax"]["anti-aliased"]["rms"]["value"].as_f64().unwrap()
+    json(summary)["quantities"]["sensor_ax.rms"]["value"].as_f64().unwrap()
 }
 
 #[test]

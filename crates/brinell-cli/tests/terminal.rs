@@ -135,7 +135,7 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
     brinell(folder.path(), &first).exits(0);
     let before = crate::common::results(&folder.path().join("o"));
     // Signals too long; then signals that fit, and a report that does not.
-    for (blocks, signals, lacks) in [(32, "csv", "signals.csv"), (100, "none", "report.html")] {
+    for (blocks, signals, lacks) in [(32, "csv", "signals.csv"), (400, "none", "report.html")] {
         let run = format!("run s.toml -o o -q --signals {signals}");
         limited(folder.path(), blocks, &run).exits(1).complains(&[lacks]);
         assert!(crate::common::results(&folder.path().join("o")) == before);

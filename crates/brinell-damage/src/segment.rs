@@ -2,7 +2,7 @@
 //!
 //! Under even light the level is Otsu's. Else the light is fitted and divided out ([`crate::background`]), and the
 //! level lies halfway between the sound surface and the piece that is found: what exceeds the noise, then what exceeds
-//! half the contrast of that, until it stays. A piece is a class of its own where its contrast is well above the noise,
+//! half the contrast of that, until it converges. A piece is separable where its contrast is well above the noise,
 //! its border is a step, and it is more than a line.
 
 use crate::background::Cells;

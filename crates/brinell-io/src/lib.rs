@@ -72,7 +72,7 @@ pub use read::{MAX_VALUES, Number, names, npy_entry, npy_number, npy_sides, npy_
 pub use records::{Cell, Kind, RecordColumn, hexadecimal, read_row_file, sha256_of, write_row_file};
 #[doc(hidden)]
 pub use signals::keys;
-pub use signals::{Column, Metadata, Outcome, SignalWriter};
+pub use signals::{Column, Metadata, Outcome, SignalWriter, run_table};
 #[doc(hidden)]
 pub use table::{Cells, Table};
 #[doc(hidden)]

@@ -96,6 +96,17 @@ impl Metadata {
     }
 }
 
+/// The columns of a run's file of signals, time and its channels (name, unit, description), and what the file says of itself.
+pub fn run_table<'a>(
+    (scenario_toml, version, rate_hz): (String, &str, f64),
+    channels: impl Iterator<Item = (&'a str, &'a str, &'a str)>,
+) -> (Vec<Column>, Metadata) {
+    let all = std::iter::once(("t", "s", "time")).chain(channels);
+    let metadata =
+        Metadata::default().with(keys::SCENARIO, scenario_toml).with(keys::VERSION, version).with_rate(rate_hz);
+    (all.map(|(name, unit, about)| Column::new(name, unit, about)).collect(), metadata)
+}
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {

@@ -1,4 +1,4 @@
-//! A file that somebody wrote by hand, read whole.
+//! Text files, size-limited.
 
 use std::io::{Error, ErrorKind, Read, Result};
 

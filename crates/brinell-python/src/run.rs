@@ -11,14 +11,15 @@ use brinell::document::on_one_line;
 use brinell::many::go_on;
 use brinell::observe::passes::{Event, Passes};
 use brinell::plausibility::{self, Beforehand};
+use brinell::result::Parts;
 use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
-use brinell::summary::{self, Parts};
+use brinell::summary;
 use brinell_report::{Report, html};
 use brinell_study::campaign::{BALANCED, Misses, assumed, count, of_results, run_spread};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
@@ -259,7 +260,7 @@ impl Run {
 
     /// What its reader should know, as in [`Run::summary`].
     fn warnings(&self, py: Python<'_>) -> Vec<String> {
-        self.with_parts(py, None, summary::warnings)
+        self.with_parts(py, None, |parts| parts.warnings())
     }
 
     /// What `summary.json` holds.
@@ -271,17 +272,6 @@ impl Run {
     #[pyo3(signature = (healthy=None))]
     fn to_html(&self, py: Python<'_>, healthy: Option<&Self>) -> String {
         self.with_parts(py, healthy, |parts| html(&Report::of_run(parts)))
-    }
-
-    /// Every number of the run: name, unit, value, low and high end.
-    #[expect(clippy::type_complexity, reason = "a row of a table")]
-    fn quantities(&self) -> Vec<(String, String, Option<f64>, Option<f64>, Option<f64>)> {
-        let all = self.finished.quantities().into_iter();
-        all.map(|q| {
-            let ends = q.interval();
-            (q.name, q.unit, q.value, ends.map(|i| i.0), ends.map(|i| i.1))
-        })
-        .collect()
     }
 
     /// What `summary.json` holds under `spread`: the assumed values at both ends of their plausible ranges, `jobs` runs at a time.
@@ -368,29 +358,5 @@ impl Run {
             list.append(dict)?;
         }
         Ok(list)
-    }
-
-    /// Surface, row and centre of each defect, and the frequency of its impacts in pure rolling.
-    fn defects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let list: Vec<_> = self
-            .finished
-            .scenario
-            .defects
-            .iter()
-            .enumerate()
-            .map(|(k, d)| {
-                let line = self.finished.findings.lines.iter().find(|l| l.defect == k);
-                json!({
-                    "on": d.on.word(),
-                    "row": d.row,
-                    "center_deg": d.center_deg,
-                    "frequency": line.map(|l| l.name),
-                    "pure_rolling_hz": line.map(|l| l.nominal),
-                    "found_hz": line.and_then(|l| l.found).map(|f| f.frequency),
-                    "too_short": line.and_then(|l| l.too_short.as_ref()),
-                })
-            })
-            .collect();
-        json_to_python(py, &list.into())
     }
 }

@@ -3,8 +3,8 @@
 //!     cargo run --release -p brinell-report --example page -- report.html
 
 use brinell::plausibility::Beforehand;
+use brinell::result::Parts;
 use brinell::scenario::{Defect, Scenario, Shape, Surface};
-use brinell::summary::Parts;
 use brinell_report::{Report, html};
 use std::error::Error;
 

@@ -1,9 +1,11 @@
 //! A number with its 95 % interval, by the scatter of what it is an average of.
 
 use super::scatter::{Scatter, scatter};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A 95 % interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Interval {
     /// Lower end.
     pub low: f64,
@@ -32,8 +34,49 @@ pub const MOST_FREEDOM: u32 = 1000;
 /// Two-sided 95 % of a normal distribution.
 pub const NORMAL: f64 = 1.959_963_984_540_054;
 
+/// A number as every file of results has it: its value, and `low` and `high`, the ends of its 95 % interval, where there is one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct Written {
+    value: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high: Option<f64>,
+}
+
+impl Written {
+    /// Of a value and the ends of its interval.
+    pub fn new(value: impl Into<Option<f64>>, interval: Option<(f64, f64)>) -> Self {
+        let (low, high) = interval.unzip();
+        Written { value: value.into(), low, high }
+    }
+
+    /// In another unit, so many of which one of its own is.
+    pub fn times(self, factor: f64) -> Self {
+        let scaled = |x: Option<f64>| x.map(|x| factor * x);
+        Written { value: scaled(self.value), low: scaled(self.low), high: scaled(self.high) }
+    }
+}
+
+/// The same with its unit; empty where it has none.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct InUnit<'a> {
+    /// The number.
+    #[serde(flatten)]
+    pub number: Written,
+    /// Its unit.
+    pub unit: &'a str,
+}
+
+impl From<Estimate> for Written {
+    fn from(e: Estimate) -> Self {
+        Written::new(e.value, e.interval.map(|i| (i.low, i.high)))
+    }
+}
+
 /// An indicator with its scatter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[serde(into = "Written")]
 pub struct Estimate {
     /// The value, within the interval.
     pub value: f64,

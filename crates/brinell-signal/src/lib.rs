@@ -94,7 +94,7 @@ pub use decimate::kaiser_lowpass;
 pub use digits::{rounded, short};
 pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
-pub use estimate::{Estimate, Interval};
+pub use estimate::{Estimate, InUnit, Interval, Written};
 #[doc(hidden)]
 pub use frequency::FEWEST_PERIODS;
 pub use frequency::{LineFrequency, LineSearch, mean_rate_uncertainty};

@@ -12,16 +12,25 @@
 //! has none. It supposes runs that scatter independently. Runs that begin alike go alike for a while; that makes the
 //! true scatter of the ratio smaller, so the interval errs on the wide side.
 
-use super::estimate::{Estimate, Interval};
+use super::estimate::{Estimate, Interval, Written};
 use super::scatter::student_t_quantile;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Ratio of one run's quantity to another's.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[serde(into = "Written")]
 pub struct Ratio {
     /// Ratio of the values.
     pub value: f64,
     /// Its 95 % interval; `None` where a value has none, one that reaches zero, or one of no degrees of freedom.
     pub interval: Option<(f64, f64)>,
+}
+
+impl From<Ratio> for Written {
+    fn from(r: Ratio) -> Self {
+        Written::new(r.value, r.interval)
+    }
 }
 
 /// The value of `of` over that of `to`; `None` where one is not positive.

@@ -14,7 +14,7 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Longest wait for what an edit sets swinging, s.
+/// Longest wait for the transient after an edit, s.
 const SLOWEST_TURN: f64 = 0.1;
 /// Samples kept for spectra and verdicts.
 pub(crate) const KEPT: usize = 1 << 17;
@@ -126,7 +126,7 @@ impl Observer for Recording {
             self.samples.pop_front();
         }
         self.samples.push_back(x);
-        // Neither the load as it comes up nor what an edit sets swinging.
+        // Neither the load ramp nor the transient after an edit.
         if index >= self.settled {
             self.moments.push(x);
         }

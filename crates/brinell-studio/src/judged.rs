@@ -5,8 +5,7 @@ use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{Analysis, COLUMNS, Family};
 use brinell::signal::{Estimate, Indicator, Moments};
-use brinell::simulate::Simulation;
-use brinell_io::{Column, Format, Metadata, Outcome, keys};
+use brinell_io::{Format, Outcome, run_table};
 use serde_json::{Value, json};
 
 /// Headline, words and table of an analysis, and what [`differ`](crate::differ) compares of it.
@@ -47,19 +46,6 @@ pub(crate) fn moments_json(moments: &Moments) -> Value {
     })
 }
 
-/// The columns of a run's file of signals, time and the recorded channels, and what the file says of itself.
-pub fn signal_table(scenario_toml: String, simulation: &Simulation) -> (Vec<Column>, Metadata) {
-    let channels = simulation.channels().iter();
-    let columns = std::iter::once(Column::new("t", "s", "time"))
-        .chain(channels.map(|c| Column::new(&c.name, c.unit, &c.description)))
-        .collect();
-    let metadata = Metadata::default()
-        .with(keys::SCENARIO, scenario_toml)
-        .with(keys::VERSION, brinell::VERSION)
-        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string());
-    (columns, metadata)
-}
-
 /// `save`: the recorded channels of a run from t = 0 that is over, as the command writes them.
 pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     let (Some(signals), Some(_)) = (&bench.recording.signals, &bench.finished) else {
@@ -73,7 +59,8 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
             return Err(Trouble::of("\"format\" must be \"csv\", \"wav\" or \"npz\""));
         }
     };
-    let (columns, metadata) = signal_table(bench.loaded.to_toml(), bench.simulation());
+    let of = (bench.loaded.to_toml(), brinell::VERSION, bench.simulation().sample_rate());
+    let (columns, metadata) = run_table(of, bench.simulation().table());
     let failed = |e: brinell_io::IoError| Trouble::of(e.to_string());
     let mut writer = format.in_memory(&columns, &metadata).map_err(failed)?;
     let all: Vec<&[f64]> = signals.names().iter().filter_map(|n| signals.get(n)).collect();

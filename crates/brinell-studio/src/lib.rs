@@ -23,8 +23,6 @@ mod tables;
 mod text;
 
 pub use about::example_file;
-#[doc(hidden)]
-pub use judged::signal_table;
 pub use message::{Arrays, Message};
 pub use page::PAGE;
 pub use studio::{SharedStudio, Studio};

@@ -1,7 +1,7 @@
 //! The engine behind its messages, as the page asks it.
 
 use brinell::plausibility::Beforehand;
-use brinell::summary::{self, Parts};
+use brinell::result::Parts;
 use brinell_studio::{Message, Studio};
 use serde_json::{Value, json};
 use std::fs;
@@ -362,7 +362,7 @@ fn regress_a_whole_run_warns_of_its_result_as_the_command_does() {
     let (result, _) = brinell::record(&loaded.scenario).unwrap();
     let (simulation, outcome, findings) = (&result.simulation, &result.outcome, &result.findings);
     let beforehand = &Beforehand::of(&loaded.scenario, simulation.model());
-    let of_command = summary::warnings(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None });
+    let of_command = Parts { loaded, simulation, outcome, findings, beforehand, healthy: None }.warnings();
     assert!(of_command.iter().any(|words| words.starts_with("parametric work")), "{of_command:?}");
     let mut studio = Studio::new();
     let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text })).json;

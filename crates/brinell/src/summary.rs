@@ -1,298 +1,387 @@
 //! `summary.json`: what a run found, what it cost, what it assumed. SI units unless a key says otherwise.
 
 use crate::accuracy::METHOD;
-use crate::document::{Loaded, Provenance};
+use crate::bearing::kinematics::Kinematics;
+use crate::document::{Difference, Provenance};
 use crate::kernel::Kernel;
-use crate::model::Model;
-use crate::observe::load_zone::BINS;
+use crate::model::{self, Model};
+use crate::observe::load_zone::{BINS, RowLoad};
 use crate::observe::{Findings, passes};
-use crate::plausibility::{Beforehand, after};
-use crate::result::fields::{self, Field};
-use crate::scenario::{ModelKind, Scenario, Speed};
-use crate::signal::{Estimate, Indicator};
-use crate::simulate::{End, Outcome, Simulation};
-use serde_json::{Map, Value, json};
+use crate::result::{Parts, Quantity, by_name, fields, quantities};
+use crate::scenario::{Choice, Scenario, Speed};
+use crate::signal::Estimate;
+use crate::signal::ratio::Ratio;
+use crate::simulate::{End, Outcome};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Everything that a summary is made of.
-#[derive(Debug, Clone, Copy)]
-pub struct Parts<'a> {
-    /// Scenario with provenance and warnings.
-    pub loaded: &'a Loaded,
-    /// The run as prepared.
-    pub simulation: &'a Simulation,
-    /// Its outcome.
-    pub outcome: &'a Outcome,
-    /// What was gathered.
-    pub findings: &'a Findings,
-    /// What was known before: the static load distribution, and warnings.
-    pub beforehand: &'a Beforehand,
-    /// What was gathered of the same bearing without its damage, where that was run too.
-    pub healthy: Option<&'a Findings>,
+/// Version of the form of `summary.json`; one where a key was taken away or means something else.
+pub const FORM: u32 = 2;
+
+/// The file, in its order.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Summary<'a> {
+    form: u32,
+    brinell: &'static str,
+    name: &'a str,
+    status: Status,
+    simulated: Simulated,
+    laws: Laws,
+    defect_frequencies: Frequencies,
+    defects: Vec<DefectPlace>,
+    /// By name, as in `sweep.csv`, data sets and Python.
+    #[schemars(schema_with = "numbers")]
+    quantities: Map<String, Value>,
+    load_zone: LoadZone,
+    solver: Solver,
+    energy_audit_j: EnergyAudit,
+    assumed: Vec<Assumption<'a>>,
+    warnings: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensor: Option<Sensor>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    healthy: Option<Healthy>,
 }
 
 /// The summary as JSON; the same run gives the same bytes.
 pub fn to_json(parts: &Parts) -> Value {
     let Parts { loaded, simulation, outcome, findings, .. } = *parts;
     let scenario = &loaded.scenario;
-    let model = simulation.model();
-    let mut summary = json!({
-        "brinell": crate::VERSION,
-        "name": scenario.name,
-        "status": status(&outcome.end),
-        "simulated": {
-            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped", ModelKind::Tilting => "tilting" },
-            "accuracy": simulation.accuracy().word(),
-            "duration_s": scenario.simulation.duration_s,
-            "reached_s": outcome.reached,
-            "samples": (fields::SAMPLES.of)(outcome),
-            "sample_rate_hz": simulation.sample_rate(),
-            "analysed_from_s": (fields::ANALYSED_FROM.of)(findings),
+    let summary = Summary {
+        form: FORM,
+        brinell: crate::VERSION,
+        name: &scenario.name,
+        status: status(&outcome.end),
+        simulated: Simulated {
+            model: scenario.simulation.model.word(),
+            accuracy: simulation.accuracy().word(),
+            duration_s: scenario.simulation.duration_s,
+            sample_rate_hz: simulation.sample_rate(),
         },
-        "laws": laws(scenario),
-        "defect_frequencies": frequencies(model, &scenario.operation.speed_rpm),
-        "defects": defects(parts),
-        "indicators": indicators(findings),
-        "slip": slip(findings),
-        "load_zone": load_zone(parts),
-        "solver": solver(outcome),
-        "energy_audit_j": energy(outcome),
-        "momentum_audit": { "largest_relative_imbalance": (fields::MOMENTUM_IMBALANCE.of)(outcome) },
-        "assumed": loaded.provenance.iter().filter(|p| p.assumed).map(assumption).collect::<Vec<_>>(),
-        "warnings": warnings(parts),
+        laws: laws(scenario),
+        defect_frequencies: frequencies(simulation.model(), &scenario.operation.speed_rpm),
+        defects: defects(parts),
+        quantities: by_name(&quantities(scenario, simulation, outcome, findings)),
+        load_zone: load_zone(parts),
+        solver: Solver { method: METHOD, kernel: Kernel::in_use().name() },
+        energy_audit_j: energy(outcome),
+        assumed: loaded.provenance.iter().filter(|p| p.assumed).map(assumption).collect(),
+        warnings: parts.warnings(),
+        sensor: sensor(parts),
+        healthy: parts.healthy.map(|healthy| beside(findings, healthy)),
+    };
+    serde_json::to_value(summary).unwrap_or_default()
+}
+
+/// The schema of [`to_json`].
+pub fn json_schema() -> Value {
+    schemars::schema_for!(Summary).to_value()
+}
+
+/// Every number that a run may have, by the form of its name.
+fn numbers(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let of = generator.subschema_for::<Quantity>();
+    let forms = fields::forms().map(|(form, unit, meaning)| {
+        let mut schema = serde_json::json!({ "allOf": [of], "description": meaning });
+        if let Some(unit) = unit {
+            schema["properties"] = serde_json::json!({ "unit": { "const": unit } });
+        }
+        (form, schema)
     });
-    if let Some(sensor) = sensor(parts) {
-        summary["sensor"] = sensor;
-    }
-    if let Some(healthy) = parts.healthy {
-        summary["healthy"] = beside(findings, healthy);
-    }
-    summary
+    let forms: Map<String, Value> = forms.collect();
+    schemars::json_schema!({ "type": "object", "patternProperties": forms, "additionalProperties": false })
 }
 
-/// The set of laws, and the keys that hold something else than it has.
-fn laws(scenario: &Scenario) -> Value {
-    let in_force = scenario.laws_and_differences();
-    let differences = in_force.differences.iter().map(|d| json!({ "key": d.key, "value": d.value, "usual": d.usual }));
-    json!({ "set": in_force.laws.word(), "differences": differences.collect::<Vec<_>>() })
-}
-
-/// The level beside that of the healthy bearing.
-fn beside(findings: &Findings, healthy: &Findings) -> Value {
-    let ratio = findings.over_healthy(healthy);
-    json!({
-        "meaning": "the same scenario without its damage: RMS of the sensor acceleration along the axis that the spectra show, and the damaged bearing's over it",
-        "channel": healthy.sensor_name(),
-        "unit": "m/s^2",
-        "rms": healthy.rms().as_ref().map(estimate),
-        "ratio": ratio.map(|r| with_interval(r.value, r.interval)),
-    })
-}
-
-/// What the sensor did; nothing without one.
-fn sensor(parts: &Parts) -> Option<Value> {
-    let chain = parts.simulation.sensor()?;
-    let noise = chain.noise_rms();
-    let channels: Map<String, Value> = parts
-        .simulation
-        .filtered()
-        .iter()
-        .zip(&parts.outcome.sensor)
-        .map(|(channel, record)| {
-            let entry = json!({
-                "unit": channel.unit,
-                "signal_rms_m_per_s2": record.signal_rms(),
-                "noise_rms_m_per_s2": record.noise_rms().filter(|_| noise.is_some()),
-                "signal_to_noise_db": record.signal_to_noise_db(),
-                "clipped_samples": record.clipped,
-            });
-            (channel.name.clone(), entry)
-        })
-        .collect();
-    Some(json!({
-        "meaning": "signal_rms, noise_rms: before noise and ADC, and of the noise added, from analysed_from_s on; noise_rms_m_per_s2 above the channels is the level asked for; clipped_samples: of all samples",
-        "noise_rms_m_per_s2": noise,
-        "converter_step_m_per_s2": chain.step(),
-        "channels": channels,
-    }))
+/// How a run ended.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Status {
+    complete: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
 }
 
 /// Words for how a run ended.
-#[doc(hidden)]
-pub fn status(end: &End) -> Value {
-    match end {
-        End::Complete => json!({ "complete": true }),
-        End::Stopped => json!({ "complete": false, "reason": "stopped before its duration" }),
-        End::Failed(error) => json!({ "complete": false, "reason": error.to_string() }),
-    }
+fn status(end: &End) -> Status {
+    let reason = match end {
+        End::Complete => None,
+        End::Stopped => Some("stopped before its duration".into()),
+        End::Failed(error) => Some(error.to_string()),
+    };
+    Status { complete: reason.is_none(), reason }
 }
 
-/// What the run's reader should know, warnings of the scenario first.
-#[doc(hidden)]
-pub fn warnings(parts: &Parts) -> Vec<String> {
-    let Parts { loaded, simulation, outcome, findings, beforehand, .. } = *parts;
-    let before = loaded.warnings.iter().chain(&beforehand.warnings);
-    before.map(ToString::to_string).chain(after(&loaded.scenario, simulation, outcome, findings)).collect()
+#[derive(Debug, Serialize, JsonSchema)]
+struct Simulated {
+    model: &'static str,
+    accuracy: &'static str,
+    duration_s: f64,
+    sample_rate_hz: f64,
 }
 
-fn assumption(p: &Provenance) -> Value {
-    json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason(), "plausible": p.plausible })
+/// The set of laws, and the keys that hold something else than it has.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Laws {
+    set: &'static str,
+    differences: Vec<Difference>,
 }
 
-fn frequencies(model: &Model, speed: &Speed) -> Value {
-    let per_turn = model.kinematics(TAU);
-    let orders = json!({
-        "ftf": per_turn.ftf, "bpfo": per_turn.bpfo, "bpfi": per_turn.bpfi, "bsf": per_turn.bsf, "2bsf": 2.0 * per_turn.bsf,
-    });
-    match speed {
-        Speed::Constant(rpm) => {
-            let k = model.kinematics(model.rotation.at(0.0).0);
-            json!({
-                "hz": {
-                    "shaft": rpm.abs() / 60.0, "ftf": k.ftf, "bpfo": k.bpfo, "bpfi": k.bpfi, "bsf": k.bsf, "2bsf": 2.0 * k.bsf,
-                },
-                "per_shaft_turn": orders,
-            })
-        }
-        Speed::Profile(_) => json!({ "hz": null, "per_shaft_turn": orders }),
-    }
+fn laws(scenario: &Scenario) -> Laws {
+    let in_force = scenario.laws_and_differences();
+    Laws { set: in_force.laws.word(), differences: in_force.differences }
 }
 
-fn defects(parts: &Parts) -> Value {
+/// Of pure rolling.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Frequencies {
+    /// Of the shaft and of each part; none where the speed varies.
+    hz: Option<Orders>,
+    per_shaft_turn: Orders,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+struct Orders {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shaft: Option<f64>,
+    ftf: f64,
+    bpfo: f64,
+    bpfi: f64,
+    bsf: f64,
+    #[serde(rename = "2bsf")]
+    twice_bsf: f64,
+}
+
+fn frequencies(model: &Model, speed: &Speed) -> Frequencies {
+    let of = |k: Kinematics, shaft: Option<f64>| Orders {
+        shaft,
+        ftf: k.ftf,
+        bpfo: k.bpfo,
+        bpfi: k.bpfi,
+        bsf: k.bsf,
+        twice_bsf: 2.0 * k.bsf,
+    };
+    let hz = speed.constant().map(|rpm| of(model.kinematics(model.rotation.at(0.0).0), Some(rpm.abs() / 60.0)));
+    Frequencies { hz, per_shaft_turn: of(model.kinematics(TAU), None) }
+}
+
+/// Where a defect is, how large, and what its line in the envelope is called; what was found of it is under `defectN.` of the
+/// quantities.
+#[derive(Debug, Serialize, JsonSchema)]
+struct DefectPlace {
+    at: String,
+    on: &'static str,
+    row: usize,
+    center_deg: f64,
+    length_mm: f64,
+    area_mm2: f64,
+    arc_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<Line>,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+struct Line {
+    name: &'static str,
+    resolution_hz: Option<f64>,
+    too_short: Option<String>,
+}
+
+fn defects(parts: &Parts) -> Vec<DefectPlace> {
     let model = parts.simulation.model();
-    let defects = model.defects.iter().enumerate().map(|(index, d)| {
+    let stated = &parts.loaded.scenario.defects;
+    let defects = model.defects.iter().zip(stated).enumerate().map(|(index, (d, of))| {
         let (first, last) = d.shape.arc();
         let line = parts.findings.lines.iter().find(|l| l.defect == index);
-        json!({
-            "at": passes::place(d),
-            "center_deg": d.center.to_degrees(),
-            "length_mm": 1e3 * (last - first),
-            "area_mm2": 1e6 * d.shape.area(),
-            "arc_deg": ((last - first) / d.radius).to_degrees(),
-            "frequency": line.map(|l| json!({
-                "name": l.name,
-                "pure_rolling_hz": l.nominal,
-                "found_hz": l.found.map(|f| f.frequency),
-                "too_short": l.too_short,
-                "low_hz": l.interval.map(|i| i.low),
-                "high_hz": l.interval.map(|i| i.high),
-                "uncertainty_hz": l.interval.map(|i| i.standard_uncertainty()),
-                "resolution_hz": l.found.map(|f| f.resolution),
-            })),
-        })
+        DefectPlace {
+            at: passes::place(d),
+            on: of.on.word(),
+            row: of.row,
+            center_deg: d.center.to_degrees(),
+            length_mm: 1e3 * (last - first),
+            area_mm2: 1e6 * d.shape.area(),
+            arc_deg: ((last - first) / d.radius).to_degrees(),
+            line: line.map(|l| Line {
+                name: l.name,
+                resolution_hz: l.found.map(|f| f.resolution),
+                too_short: l.too_short.clone(),
+            }),
+        }
     });
     defects.collect()
 }
 
-fn estimate(e: &Estimate) -> Value {
-    with_interval(e.value, e.interval.map(|i| (i.low, i.high)))
+/// Force of the outer contacts over the place in the bearing.
+#[derive(Debug, Serialize, JsonSchema)]
+struct LoadZone {
+    r#static: Option<StaticBalance>,
+    bin_centers_deg: Vec<f64>,
+    outer_contacts_by_row: Vec<RowForces>,
 }
 
-/// A number and the 95 % interval of its long-run value, as every file of results has it.
-#[doc(hidden)]
-pub fn with_interval(value: impl Into<Option<f64>>, interval: Option<(f64, f64)>) -> Value {
-    let value = value.into();
-    match interval {
-        Some((low, high)) => json!({ "value": value, "low": low, "high": high }),
-        None => json!({ "value": value }),
+#[derive(Debug, Serialize, JsonSchema)]
+struct StaticBalance {
+    largest_contact_force_n: f64,
+    extent_deg: f64,
+    shift_inner_to_outer_um: [f64; 2],
+    stiffness_n_per_m: [[f64; 2]; 2],
+    support_force_n: f64,
+    sunk_um: f64,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+struct RowForces {
+    mean_n: Vec<f64>,
+    max_n: Vec<f64>,
+}
+
+fn load_zone(parts: &Parts) -> LoadZone {
+    let of_row = |row: &RowLoad| RowForces { mean_n: row.mean(), max_n: row.max.clone() };
+    LoadZone {
+        r#static: parts.beforehand.statics.as_ref().ok().map(|z| StaticBalance {
+            largest_contact_force_n: z.largest,
+            extent_deg: z.extent.to_degrees(),
+            shift_inner_to_outer_um: z.shift.map(|x| 1e6 * x),
+            stiffness_n_per_m: z.stiffness,
+            support_force_n: z.support,
+            sunk_um: 1e6 * z.sunk,
+        }),
+        bin_centers_deg: (0..BINS).map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64).collect(),
+        outer_contacts_by_row: parts.findings.load_zone.rows.iter().map(of_row).collect(),
     }
 }
 
-fn indicators(findings: &Findings) -> Value {
-    let mut channels = Map::new();
-    for channel in &findings.channels {
-        let mut values: Map<String, Value> = Indicator::ALL
-            .into_iter()
-            .filter_map(|i| Some((i.name().to_owned(), estimate(&channel.blocks.estimate(i)?))))
-            .collect();
-        let record = channel.blocks.record();
-        for field in fields::record(channel.unit) {
-            values.extend(record.get(field.of).map(|x| (field.name.to_owned(), x.into())));
-        }
-        let entry = channels.entry(channel.name.clone()).or_insert_with(|| json!({ "unit": channel.unit }));
-        entry[channel.kind.name()] = values.into();
-    }
-    json!({
-        "meaning": "value, and low to high, its 95 % interval, scatter only: what is assumed is not in it; of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
-        "revolutions": (fields::ANALYSED_TURNS.of)(findings) as u64,
-        "channels": channels,
-    })
+#[derive(Debug, Serialize, JsonSchema)]
+struct Solver {
+    method: &'static str,
+    kernel: &'static str,
 }
 
-fn slip(findings: &Findings) -> Value {
-    let rows = findings.slip.rows.iter().map(|row| {
-        let mut values = Map::new();
-        let mut intervals = Map::new();
-        for (name, field) in [
-            ("cage", fields::CAGE_SLIP),
-            ("loaded_rollers_orbit", fields::LOADED_ORBIT_SLIP),
-            ("loaded_rollers_surface", fields::LOADED_SURFACE_SLIP),
-            ("unloaded_rollers_orbit", fields::UNLOADED_ORBIT_SLIP),
-        ] {
-            let estimate = (field.of)(row);
-            let interval = estimate.and_then(|e| e.interval);
-            values.insert(name.into(), json!(estimate.map(|e| e.value)));
-            intervals.insert(name.into(), json!(interval.map(|i| [i.low, i.high])));
-        }
-        values.insert("intervals_95".into(), intervals.into());
-        Value::from(values)
-    });
-    json!({
-        "meaning": "shares of the way in pure rolling, over whole turns of the analysed time; a roller is loaded where both raceways press it",
-        "rows": rows.collect::<Vec<_>>(),
-    })
+/// Every entry of the audit; what is left is the quantity `audit.energy_residual`.
+#[derive(Debug, Serialize, JsonSchema)]
+struct EnergyAudit {
+    held_at_start: Held,
+    held_at_end: Held,
+    input: Input,
+    dissipated: Dissipated,
+    parametric_work_of_defects: f64,
+    centred_levers: f64,
 }
 
-fn load_zone(parts: &Parts) -> Value {
-    let rows = parts.findings.load_zone.rows.iter().map(|row| json!({ "mean_n": row.mean(), "max_n": row.max }));
-    let centers: Vec<f64> = (0..BINS).map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64).collect();
-    let statics = parts.beforehand.statics.as_ref().ok().map(|z| {
-        json!({
-            "largest_contact_force_n": z.largest,
-            "extent_deg": z.extent.to_degrees(),
-            "shift_inner_to_outer_um": z.shift.map(|x| 1e6 * x),
-            "stiffness_n_per_m": z.stiffness,
-            "support_force_n": z.support,
-            "sunk_um": 1e6 * z.sunk,
-        })
-    });
-    json!({ "static": statics, "bin_centers_deg": centers, "outer_contacts_by_row": rows.collect::<Vec<_>>() })
+#[derive(Debug, Serialize, JsonSchema)]
+struct Held {
+    kinetic: f64,
+    contacts: f64,
+    cage_contacts: f64,
+    supports: f64,
+    gravity: f64,
 }
 
-fn solver(outcome: &Outcome) -> Value {
-    let count = |field: Field<fn(&Outcome) -> u64>| (field.of)(outcome);
-    json!({
-        "method": METHOD,
-        "kernel": Kernel::in_use().name(),
-        "steps": count(fields::STEPS),
-        "rejections": count(fields::REJECTIONS),
-        "right_hand_sides": count(fields::RIGHT_HAND_SIDES),
-        "right_hand_sides_for_samples": count(fields::SAMPLE_RIGHT_HAND_SIDES),
-        "force_switches": {
-            "contacts": count(fields::CONTACT_SWITCHES), "pockets": count(fields::POCKET_SWITCHES), "defect_edges": count(fields::DAMAGE_SWITCHES),
-        },
-    })
+fn held(e: &model::Energy) -> Held {
+    Held { kinetic: e.kinetic, contacts: e.contacts, cage_contacts: e.cage, supports: e.supports, gravity: e.gravity }
 }
 
-fn energy(outcome: &Outcome) -> Value {
+#[derive(Debug, Serialize, JsonSchema)]
+struct Input {
+    drive: f64,
+    load: f64,
+    guidance_film: f64,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+struct Dissipated {
+    contact_damping: f64,
+    raceway_friction: f64,
+    rolling_resistance: f64,
+    pocket_damping: f64,
+    pocket_friction: f64,
+    land_damping: f64,
+    supports: f64,
+    drag: f64,
+}
+
+fn energy(outcome: &Outcome) -> EnergyAudit {
     let e = &outcome.energy;
     let f = &e.flows;
-    let held = |e: &crate::model::Energy| {
-        json!({
-            "kinetic": e.kinetic, "contacts": e.contacts, "cage_contacts": e.cage, "supports": e.supports, "gravity": e.gravity,
-        })
-    };
-    json!({
-        "held_at_start": held(&e.initial),
-        "held_at_end": held(&e.last),
-        "input": { "drive": f.drive, "load": f.load, "guidance_film": f.film },
-        "dissipated": {
-            "contact_damping": f.contact, "raceway_friction": f.friction, "rolling_resistance": f.rolling, "pocket_damping": f.pocket,
-            "pocket_friction": f.pocket_friction, "land_damping": f.land, "supports": f.support, "drag": f.drag,
+    EnergyAudit {
+        held_at_start: held(&e.initial),
+        held_at_end: held(&e.last),
+        input: Input { drive: f.drive, load: f.load, guidance_film: f.film },
+        dissipated: Dissipated {
+            contact_damping: f.contact,
+            raceway_friction: f.friction,
+            rolling_resistance: f.rolling,
+            pocket_damping: f.pocket,
+            pocket_friction: f.pocket_friction,
+            land_damping: f.land,
+            supports: f.support,
+            drag: f.drag,
         },
-        "parametric_work_of_defects": (fields::PARAMETRIC_ENERGY.of)(outcome),
-        "centred_levers": f.lever,
-        "residual": (fields::ENERGY_RESIDUAL.of)(outcome),
-        "residual_over_turnover": (fields::RELATIVE_RESIDUAL.of)(outcome),
-    })
+        parametric_work_of_defects: e.parametric,
+        centred_levers: f.lever,
+    }
+}
+
+/// A value that no source states.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Assumption<'a> {
+    key: &'a str,
+    value: &'a str,
+    unit: &'static str,
+    why: String,
+    plausible: Option<[f64; 2]>,
+}
+
+fn assumption(p: &Provenance) -> Assumption<'_> {
+    Assumption { key: &p.key, value: &p.value, unit: p.unit, why: p.reason(), plausible: p.plausible }
+}
+
+/// What the sensor did: of the signal before noise and ADC, and of the noise added, from `analysed_from` on; clipped samples of the
+/// whole record.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Sensor {
+    /// The level asked for.
+    noise_rms_m_per_s2: Option<f64>,
+    converter_step_m_per_s2: Option<f64>,
+    channels: BTreeMap<String, SensorChannel>,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+struct SensorChannel {
+    unit: &'static str,
+    signal_rms_m_per_s2: Option<f64>,
+    noise_rms_m_per_s2: Option<f64>,
+    signal_to_noise_db: Option<f64>,
+    clipped_samples: u64,
+}
+
+fn sensor(parts: &Parts) -> Option<Sensor> {
+    let chain = parts.simulation.sensor()?;
+    let noise = chain.noise_rms();
+    let channels = parts.simulation.filtered().iter().zip(&parts.outcome.sensor).map(|(channel, record)| {
+        let of = SensorChannel {
+            unit: channel.unit,
+            signal_rms_m_per_s2: record.signal_rms(),
+            noise_rms_m_per_s2: record.noise_rms().filter(|_| noise.is_some()),
+            signal_to_noise_db: record.signal_to_noise_db(),
+            clipped_samples: record.clipped,
+        };
+        (channel.name.clone(), of)
+    });
+    Some(Sensor { noise_rms_m_per_s2: noise, converter_step_m_per_s2: chain.step(), channels: channels.collect() })
+}
+
+/// The level beside that of the same scenario without its damage: RMS of the sensor acceleration along the axis that the spectra
+/// show, and that of the damaged bearing over it.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Healthy {
+    channel: &'static str,
+    unit: &'static str,
+    rms: Option<Estimate>,
+    ratio: Option<Ratio>,
+}
+
+fn beside(findings: &Findings, healthy: &Findings) -> Healthy {
+    Healthy { channel: healthy.sensor_name(), unit: "m/s^2", rms: healthy.rms(), ratio: findings.over_healthy(healthy) }
 }

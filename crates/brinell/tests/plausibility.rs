@@ -375,7 +375,7 @@ fn regress_an_audit_that_does_not_close_is_said() {
     let told = |s: &Scenario, energy: EnergyAudit| of_energy(s, &energy, None).join("\n");
     assert!(!told(&s, energy).contains("audit"), "0.8 % is no word");
     energy.parametric = -0.95;
-    let words = "the energy audit closes to 2.6 % of the turnover";
+    let words = "the energy balance error is 2.6 %";
     assert!(told(&s, energy).contains(words), "{}", told(&s, energy));
     assert!(told(&s, energy).contains("raise simulation.accuracy (allowed: \"reference\")"));
     let mut tight = s.clone();
@@ -399,7 +399,7 @@ fn regress_an_audit_of_a_run_in_which_nothing_flows_is_closed() {
     assert!(of_energy(&s, &energy, None).is_empty(), "{:?}", of_energy(&s, &energy, None));
     // Energy from nowhere is no round-off.
     energy.last.kinetic += 1e-6 * held;
-    assert!(of_energy(&s, &energy, None).join("\n").contains("the energy audit closes to"));
+    assert!(of_energy(&s, &energy, None).join("\n").contains("the energy balance error is"));
 }
 
 #[test]

@@ -50,7 +50,7 @@ pub(crate) struct AnalyzeArgs {
     /// Its pulses a turn
     #[arg(long, value_name = "N", default_value_t = 1, requires = "tacho", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) pulses: u32,
-    /// Bearing by name, or a scenario file that has it; again for a further one of the same shaft, as at a motor's other end: each is judged
+    /// Bearing by name, or a scenario file that has it; repeat for further bearings on the same shaft (such as a motor's other end): each is judged
     #[arg(long, value_name = "NAME")]
     pub(crate) bearing: Vec<String>,
     #[command(flatten)]
@@ -89,7 +89,7 @@ pub(crate) struct AnalyzeArgs {
     /// Compare it with this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) against: Option<PathBuf>,
-    /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is
+    /// The --against record is a baseline of the same machine when healthy: only growth counts as damage
     /// reported
     #[arg(long, requires = "against")]
     pub(crate) healthy: bool,

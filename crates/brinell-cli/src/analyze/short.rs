@@ -6,7 +6,7 @@ use super::examine::{is_bare, may_be_hz, speed};
 use super::measured::Measured;
 use crate::failure::Failure;
 use brinell::analysis::{AnalysisError, FEWEST_REVOLUTIONS, severity};
-use brinell::signal::{Blocks, Estimate, Indicator, RECORD_PEAK};
+use brinell::signal::{Blocks, Estimate, InUnit, Indicator, RECORD_PEAK, Written};
 use serde_json::{Value, json};
 
 /// What is known of it.
@@ -62,8 +62,8 @@ impl Short {
     pub(super) fn to_json(&self) -> Value {
         let m = &self.measured;
         let indicator = |e: Option<Estimate>, unit: &str| {
-            let interval = e.and_then(|e| e.interval).map(|i| [i.low, i.high]);
-            json!({ "value": e.map(|e| e.value), "unit": unit, "interval_95": interval })
+            let number = e.map_or(Written::new(None, None), Written::from);
+            json!(InUnit { number, unit })
         };
         let peak = Estimate { value: self.peak, interval: None };
         json!({

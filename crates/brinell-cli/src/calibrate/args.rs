@@ -62,7 +62,7 @@ pub(crate) struct CalibrateArgs {
     /// Runs at most [default: 30 a key]
     #[arg(short, long, value_name = "N")]
     pub(crate) budget: Option<usize>,
-    /// Which points are tried: every seed takes others
+    /// Random seed of the points that are tried
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
     /// Runs at a time [default: one a core]

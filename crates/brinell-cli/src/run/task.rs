@@ -12,13 +12,13 @@ use crate::say::{complain, short};
 use crate::sweep::duration;
 use brinell::document::Loaded;
 use brinell::plausibility::Beforehand;
+use brinell::result::Parts;
 use brinell::result::{RunResult, finish};
 use brinell::simulate::{End, Observer, Simulation};
-use brinell::summary::{self, Parts};
+use brinell::summary;
 use brinell_damage::Photo;
-use brinell_io::{Format, atomic_prepare};
+use brinell_io::{Format, atomic_prepare, run_table};
 use brinell_report::Report;
-use brinell_studio::signal_table;
 use brinell_study::campaign::Spread;
 use brinell_study::runner::{Make, Recorder, forecast};
 use std::path::{Path, PathBuf};
@@ -181,7 +181,8 @@ fn report(parts: &Parts, photos: &[Option<Photo>], spread: Option<&Spread>) -> R
 
 /// Begins the files of signals.
 fn files(args: &RunArgs, loaded: &Loaded, simulation: &Simulation, folder: &Path) -> Box<Make> {
-    let (columns, metadata) = signal_table(loaded.to_toml(), simulation);
+    let of = (loaded.to_toml(), brinell::VERSION, simulation.sample_rate());
+    let (columns, metadata) = run_table(of, simulation.table());
     let (formats, folder) = (formats(args), folder.to_owned());
     Box::new(move || formats.iter().map(|format| format.create(&folder, &columns, &metadata)).collect())
 }

@@ -3,10 +3,10 @@
 use crate::say::{one_line, short};
 use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility::{converted, doubtful, unsettled};
+use brinell::result::Parts;
 use brinell::result::fields;
 use brinell::signal::Indicator;
 use brinell::simulate::End;
-use brinell::summary::Parts;
 use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
@@ -40,13 +40,11 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     printed.extend(findings.lines.iter().map(defect_line));
     let same = |h| findings.over_healthy(h).and_then(|r| r.interval).is_some_and(|(low, high)| low < 1.0 && high > 1.0);
     if parts.healthy.is_some_and(same) && findings.lines.iter().any(|line| line.found.is_some()) {
-        printed.push(
-            "  with the damage the level is as without it: rollers of a sound bearing make a line at BPFO, too".into(),
-        );
+        printed.push("  no level difference to the healthy run; a healthy bearing also shows a BPFO line".into());
     }
     let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
     printed.push(format!(
-        "  energy audit closes to {} of the turnover, momentum to {}",
+        "  energy balance error {} of the turnover, momentum {}",
         part.map_or("-".into(), |x| short(x.abs(), 1)),
         (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
@@ -95,7 +93,7 @@ fn healthy_line(parts: &Parts) -> Option<String> {
         .interval
         .map_or(String::new(), |(low, high)| format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3)));
     Some(format!(
-        "  {} without the damage: RMS {} m/s^2; with it {} x that{interval}",
+        "  {} without the damage: RMS {} m/s^2; damaged over healthy {}{interval}",
         healthy.sensor_name(),
         short(rms.value, 3),
         short(ratio.value, 3),

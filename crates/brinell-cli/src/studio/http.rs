@@ -66,7 +66,7 @@ impl Request {
             let mut head = httparse::Request::new(&mut fields);
             let parsed = head.parse(&bytes);
             if let Ok(httparse::Status::Complete(end)) = parsed {
-                // Of several of a name all, which are then nobody's.
+                // Repeated headers invalidate each other.
                 let field = |name: &str| {
                     let named = head.headers.iter().filter(|h| h.name.eq_ignore_ascii_case(name));
                     let values: Vec<_> = named.map(|h| String::from_utf8_lossy(h.value)).collect();

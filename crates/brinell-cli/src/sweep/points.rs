@@ -6,8 +6,7 @@ use crate::files::Source;
 use crate::files::make_folder;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
-use brinell_io::ParquetWriter;
-use brinell_studio::signal_table;
+use brinell_io::{ParquetWriter, run_table};
 use brinell_study::campaign::{Axis, Plan, is_inside};
 use brinell_study::runner::{Make, ReadPoints, Task, Work};
 use serde_json::Value;
@@ -94,7 +93,8 @@ impl Work for FromSource<'_> {
         };
         make_folder(folder)?;
         let text = self.source.load(&task.settings, true)?.to_toml();
-        let (columns, metadata) = signal_table(text, simulation);
+        let of = (text, brinell::VERSION, simulation.sample_rate());
+        let (columns, metadata) = run_table(of, simulation.table());
         Ok(Box::new(move || Ok(vec![Box::new(ParquetWriter::create(&path, &columns, &metadata)?)])))
     }
 }

@@ -167,7 +167,7 @@ fn prop_held_out_labels_lie_apart() {
             for name in secret {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
-            for name in ["entry_t_s", "defect_on", "largest_contact_force_n", "defects.0.depth_um", "solver_steps"] {
+            for name in ["entry_t_s", "defect_on", "largest_contact_force_n", "defects.0.depth_um", "work_steps"] {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
             // What a sensor knows stays.

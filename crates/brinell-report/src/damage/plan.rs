@@ -94,7 +94,7 @@ impl<'a> Plan<'a> {
                 },
                 Size { width, height, font },
                 (Domain::exact(middle - half, middle + half), &along(view, half_turn.is_some()), "mm"),
-                (Domain::exact(-0.5 * tall, 0.5 * tall), "Across", "mm"),
+                (Domain::exact(-0.5 * tall, 0.5 * tall), "Axial", "mm"),
             )
         };
         let around = 8.0 + 3.4 * font;

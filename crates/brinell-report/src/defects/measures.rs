@@ -115,7 +115,7 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
         fact("Length", m.length_mm, 4, "mm", passed(passing, defect)),
         fact("Arc", m.arc_deg, 4, "°", "of the damaged surface".into()),
         fact(
-            "Widest",
+            "Max. width",
             m.widest_mm,
             4,
             "mm",
@@ -144,7 +144,7 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
             "largest L_s: this law counts each damaged node as wide as dz, {} mm^2 in all; the law \"half-space\" takes the surface",
             short(m.area_in_ecl_mm2, 4)
         );
-        facts.push(fact("Widest in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));
+        facts.push(fact("Max. width in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));
     }
     if let Some(share) = m.load_zone_share {
         facts.push(fact(

@@ -3,9 +3,9 @@
 use crate::RowLoad;
 use brinell::channel::stiffness_unit;
 use brinell::observe::passes::{Pass, place};
+use brinell::result::Parts;
 use brinell::scenario::Element;
 use brinell::statics::StaticLoadZone;
-use brinell::summary::Parts;
 
 /// Points of a pass that are drawn.
 const PASS_POINTS: usize = 600;

@@ -4,8 +4,8 @@ use super::orders;
 use crate::Healthy;
 use crate::number::short;
 use brinell::observe::Findings;
+use brinell::result::Parts;
 use brinell::signal::Spectrum;
-use brinell::summary::Parts;
 
 /// Curves at the places of the damaged bearing's own, whose envelope over orders is `orders`; what lies elsewhere is
 /// left out.

@@ -4,8 +4,8 @@ use super::healthy;
 use crate::defects::Damage;
 use crate::number::short;
 use brinell::model::Model;
+use brinell::result::Parts;
 use brinell::scenario::Surface;
-use brinell::summary::Parts;
 
 /// "8.3 × 4 mm defect, outer race: 22.8 m/s² RMS, 4.1 times the healthy bearing’s; BPFO found at 248.9 Hz".
 pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {

@@ -11,9 +11,9 @@ mod tables;
 
 use crate::Report;
 use crate::number::short;
+use brinell::result::Parts;
 use brinell::scenario::{ModelKind, Scenario, Speed};
 use brinell::simulate::End;
-use brinell::summary::Parts;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;
@@ -41,7 +41,7 @@ impl Report {
                 End::Stopped => Some("the run was stopped before its duration".into()),
                 End::Failed(error) => Some(error.to_string()),
             },
-            warnings: brinell::summary::warnings(parts),
+            warnings: parts.warnings(),
             facts: facts(parts),
             healthy: healthy::healthy(parts, &envelope_orders),
             waveform: waveform(parts),

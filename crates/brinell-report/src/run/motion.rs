@@ -3,7 +3,7 @@
 use crate::number::short;
 use crate::{AxialRow, AxialSection, CageOrbit, CageOrbits, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram};
 use brinell::observe::orbit::TURNS;
-use brinell::summary::Parts;
+use brinell::result::Parts;
 use std::f64::consts::TAU;
 
 pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {

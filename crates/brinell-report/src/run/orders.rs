@@ -6,9 +6,9 @@ use crate::number::short;
 use crate::{Marker, Spectrum};
 use brinell::analysis::HARMONICS;
 use brinell::observe::Findings;
+use brinell::result::Parts;
 use brinell::scenario::Speed;
 use brinell::signal::{Rotation, Segments, envelope, psd, resample};
-use brinell::summary::Parts;
 use std::f64::consts::TAU;
 
 /// Instants a second at which the shaft's angle is given to the resampling.

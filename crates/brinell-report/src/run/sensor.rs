@@ -2,7 +2,7 @@
 
 use crate::number::short;
 use crate::{Fact, SensorView};
-use brinell::summary::Parts;
+use brinell::result::Parts;
 
 /// Frequencies of the response, up to half the sample rate; not 0, which a band with a lower end does not pass at all.
 const POINTS: usize = 600;

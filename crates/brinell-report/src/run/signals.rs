@@ -6,9 +6,9 @@ use brinell::analysis::HARMONICS;
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, DefectLine, Kind};
+use brinell::result::Parts;
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
-use brinell::summary::Parts;
 use std::f64::consts::TAU;
 
 /// Indicators that the table shows.

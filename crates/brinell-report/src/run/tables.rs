@@ -6,10 +6,10 @@ use crate::number::short;
 use brinell::accuracy::METHOD;
 use brinell::observe::DefectLine;
 use brinell::observe::passes::place;
+use brinell::result::Parts;
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
 use brinell::simulate::Outcome;
-use brinell::summary::Parts;
 
 pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();

@@ -228,7 +228,7 @@ pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usiz
         let name = format!("defect{}-{word}", defect + 1);
         let overlay = Overlay {
             note: format!(
-                "Sensor acceleration averaged over {} instants of {word}: what they have in common.",
+                "Synchronous average of the sensor acceleration over {} instants of {word}.",
                 counts.join(" and ")
             ),
             ..Overlay::new(name, (&labels[0], "ms"), (&labels[1], "m/s^2"), curves)

@@ -1,7 +1,7 @@
 //! An analysis as JSON. Frequencies in Hz; amplitudes in the unit named.
 
 use super::{Analysis, Comparison, Family, Finding, Unexplained, Unit};
-use crate::{RECORD_CREST_FACTOR, RECORD_PEAK, VelocityBands};
+use crate::{InUnit, RECORD_CREST_FACTOR, RECORD_PEAK, VelocityBands, Written};
 use serde_json::{Map, Value, json};
 
 /// The analysis; `velocity` is in m/s where it was computed.
@@ -83,13 +83,13 @@ pub fn to_json(
 
 /// Averages over revolutions, and the peak and the crest factor of the whole record, which have no interval.
 fn indicators(analysis: &Analysis, unit: &Unit) -> Map<String, Value> {
-    let one = |value: f64, unit: &str, interval: Option<[f64; 2]>| json!({ "value": value, "unit": unit, "interval_95": interval });
+    let one = |number: Written, unit: &str| json!(InUnit { number, unit });
     let mut all: Map<String, Value> = (analysis.indicators.iter())
-        .map(|(i, e)| (i.name().to_owned(), one(e.value, i.unit(&unit.name), e.interval.map(|v| [v.low, v.high]))))
+        .map(|(i, e)| (i.name().to_owned(), one((*e).into(), i.unit(&unit.name))))
         .collect();
-    all.insert(RECORD_PEAK.into(), one(analysis.record_peak, &unit.name, None));
+    all.insert(RECORD_PEAK.into(), one(Written::new(analysis.record_peak, None), &unit.name));
     if let Some(crest) = analysis.record_crest_factor() {
-        all.insert(RECORD_CREST_FACTOR.into(), one(crest, "", None));
+        all.insert(RECORD_CREST_FACTOR.into(), one(Written::new(crest, None), ""));
     }
     all
 }
@@ -98,8 +98,7 @@ fn velocity_json(bands: &VelocityBands) -> Vec<Value> {
     (bands.iter().flatten())
         .map(|b| {
             json!({
-                "low_hz": b.band.low, "high_hz": b.band.high, "rms_m_per_s": b.rms.value,
-                "interval_95": b.rms.interval.map(|v| [v.low, v.high]), "cut_short": b.cut_short,
+                "low_hz": b.band.low, "high_hz": b.band.high, "rms_m_per_s": b.rms, "cut_short": b.cut_short,
             })
         })
         .collect()

@@ -1,4 +1,4 @@
-//! Lines that are nobody's damage: the mains', and the shaft's, which tell its speed.
+//! Shaft and mains lines, excluded from damage; the shaft's tell its speed.
 
 use super::running_median::running_median;
 use super::together::{FLOOR, MAINS_HZ, REVOLUTIONS};

@@ -2,7 +2,7 @@
 //! as JSON.
 
 use super::{Analysis, BandLevel, MachineClass, NoVelocity, NoZone, Unit, Zone, band_level, severity, shares};
-use crate::Estimate;
+use crate::{Estimate, InUnit, Written};
 use serde_json::{Value, json};
 
 /// Levels of one signal.
@@ -48,10 +48,8 @@ impl Levels {
 
     /// As `severity` of the JSON; `unit` is the signal's.
     pub fn to_json(&self, unit: &Unit) -> Value {
-        let of = |e: &Estimate, factor: f64, unit: &str| {
-            let interval = e.interval.map(|i| [factor * i.low, factor * i.high]);
-            json!({ "value": factor * e.value, "unit": unit, "interval_95": interval })
-        };
+        let of =
+            |e: &Estimate, factor: f64, unit: &str| json!(InUnit { number: Written::from(*e).times(factor), unit });
         let velocity = match &self.velocity {
             Ok(v) => of(v, 1e3, "mm/s"),
             Err(why) => json!({ "value": null, "why": why.to_string() }),

@@ -14,7 +14,7 @@ use crate::digits;
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] =
-    ["Part", "Frequency", "#At, Hz", "#Shift, %", "#Harmonics", "#Over noise, dB", "#Modulation, %", "Says"];
+    ["Part", "Frequency", "#Found, Hz", "#Deviation, %", "#Harmonics", "#SNR, dB", "#Modulation, %", "Assessment"];
 
 /// The indicators that are said in one line.
 pub const HEADLINES: [Indicator; 4] = [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
@@ -130,7 +130,8 @@ impl Analysis {
         let (used, given) = (60.0 * self.shaft, 60.0 * self.options.shaft);
         let is_other =
             self.at_given.is_none() && self.options.rotation.is_none() && self.options.is_other_speed(self.shaft);
-        is_other.then(|| format!("This is at {used:.0} r/min, by the shaft's lines, not at the {given:.0} given."))
+        is_other
+            .then(|| format!("Evaluated at {used:.0} r/min (from shaft harmonics), not the given {given:.0} r/min."))
     }
 
     /// A row for each family, in the order of [`COLUMNS`].
@@ -138,12 +139,12 @@ impl Analysis {
         let row = |f: &Family| {
             let says = match f.finding {
                 Finding::Damage => format!("damage, {}", self.clarity(f)),
-                Finding::Shared(with) => format!("shares the lines of {with}"),
+                Finding::Shared(with) => format!("explained by {with}"),
                 Finding::Open => "cannot tell".into(),
                 Finding::Faint => "present, below the limit".into(),
                 Finding::Grown => "grown since healthy".into(),
                 Finding::AsBefore => "as in the healthy record".into(),
-                Finding::Silent if f.is_skirt && f.detected_harmonics() > 0 => "lines are beyond the tolerance".into(),
+                Finding::Silent if f.is_skirt && f.detected_harmonics() > 0 => "outside the tolerance".into(),
                 Finding::Silent => "nothing".into(),
             };
             [

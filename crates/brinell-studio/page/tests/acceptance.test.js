@@ -40,11 +40,11 @@ const finished = (page, example, duration_s, laws = "") => page.evaluate(async (
   return { whole, quick: side.opened.quick, took: performance.now() - from, toml: side.opened.toml, axis: side.opened.axis, quantities: side.indicators.quantities, samples: side.trace.end };
 }, [example, duration_s, laws]);
 
-const rms = (summary, axis) => Object.entries(summary.indicators.channels[axis]).find(([name]) => name !== "unit")[1].rms;
+const rms = (summary, axis) => summary.quantities[`${axis}.rms`];
 
 /** Round-off grows in a bearing with play, so two engines share their statistics, not their bits: the 95 % intervals must meet. */
 function meet(words, page, native) {
-  const low = (v) => v.low ?? v.low_hz ?? v.value, high = (v) => v.high ?? v.high_hz ?? v.value;
+  const low = (v) => v.low ?? v.value, high = (v) => v.high ?? v.value;
   assert.ok(low(page) <= high(native) && low(native) <= high(page), `${words}: ${JSON.stringify(page)} in the page, ${JSON.stringify(native)} of the command`);
 }
 
@@ -95,13 +95,14 @@ describe("the page with its engine, held against the command", { skip: missing }
     for (const name of names.filter((n) => n !== "one-sided")) {
       const got = await finished(page, name, SHORT_S, name === "photo" || name === "scan" ? "li2023" : ""), { summary } = await native(got.toml);
       assert.ok(got.whole && !got.quick, `${name} ran to its end, with its own tables`);
-      assert.equal(got.samples, summary.simulated.samples, name);
+      assert.equal(got.samples, summary.quantities["work.samples"].value, name);
       const own = got.quantities.find((q) => q.name === `${got.axis}.rms`), theirs = rms(summary, got.axis);
       // A run-up has one record and no interval. Its rollers, started in step, may fall out of it: a tenth is allowed.
       if (theirs.low !== undefined && theirs.low !== null) meet(`${name}, RMS`, own, theirs);
       else assert.ok(Math.abs(own.value / theirs.value - 1) < 0.1, `${name}: RMS ${own.value}, the command's ${theirs.value}`);
-      for (const [k, { frequency }] of summary.defects.entries()) {
-        if (typeof frequency?.found_hz !== "number") continue;
+      for (const k of summary.defects.keys()) {
+        const frequency = summary.quantities[`defect${k + 1}.frequency`];
+        if (typeof frequency?.value !== "number") continue;
         const line = got.quantities.find((q) => q.name === `defect${k + 1}.frequency`);
         // In so short a run a weak line, as the scan's, is at the noise: another kernel's round-off decides whether it is found.
         if (line.value === null) missed.push(name);

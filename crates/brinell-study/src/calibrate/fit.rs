@@ -16,7 +16,7 @@ pub type Run<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Un
 /// How a search is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
-    /// Which points of the cube; every seed takes others.
+    /// Random seed of the points of the cube.
     pub seed: u64,
     /// Runs at most, [`least_budget`] or more.
     pub budget: usize,

@@ -249,10 +249,10 @@ impl Outcome {
         let identified = &self.fit.identified;
         let keys = self.found.iter().enumerate().map(|(k, f)| {
             let key = &f.key;
+            let (low, high) = f.interval.unzip();
             json!({
-                "key": key.name, "unit": f.unit, "value": f.best, "low": key.low, "high": key.high, "log": key.log,
+                "key": key.name, "unit": f.unit, "value": f.best, "low": low, "high": high, "range": [key.low, key.high], "log": key.log,
                 "determined": f.is_determined(),
-                "interval_95": f.interval.map(|(low, high)| json!([low, high])),
                 "met_as_well_by": match f.open {
                     Some(Open::Rival(r)) => json!({ "run": r.run, "value": r.value, "chi_square": r.chi_square }),
                     _ => Value::Null,

@@ -1,8 +1,7 @@
 //! What is kept of a point: its settings, which scenario it was, and its numbers or why there are none.
 
-use brinell::result::{Quantity, Spread};
+use brinell::result::{Quantity, by_name};
 use brinell::scenario::Scenario;
-use brinell::signal::Interval;
 use brinell_io::hexadecimal;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
@@ -43,20 +42,7 @@ impl Row {
         });
         match &self.result {
             Ok(quantities) => {
-                let values: Map<String, Value> = quantities
-                    .iter()
-                    .map(|q| {
-                        let value = match q.spread {
-                            Spread::Without => json!([q.unit, q.value]),
-                            Spread::Unknown => json!([q.unit, q.value, null, null]),
-                            Spread::Interval(i) => {
-                                json!([q.unit, q.value, i.low, i.high, i.freedom])
-                            }
-                        };
-                        (q.name.clone(), value)
-                    })
-                    .collect();
-                object["values"] = values.into();
+                object["values"] = by_name(quantities).into();
             }
             Err(reason) => object["failed"] = reason.as_str().into(),
         }
@@ -75,7 +61,7 @@ impl Row {
             Some(reason) => Err(reason.as_str()?.to_owned()),
             None => {
                 let values = value.get("values")?.as_object()?.iter();
-                Ok(values.map(|(name, parts)| quantity(name, parts.as_array()?)).collect::<Option<Vec<_>>>()?)
+                Ok(values.map(|(name, parts)| quantity(name, parts)).collect::<Option<Vec<_>>>()?)
             }
         };
         let warnings = value.get("warnings").and_then(Value::as_array).into_iter().flatten();
@@ -95,30 +81,16 @@ impl Row {
     }
 }
 
-fn quantity(name: &str, parts: &[Value]) -> Option<Quantity> {
-    let number = |value: &Value| match value {
-        Value::Null => Some(None),
-        value => value.as_f64().map(Some),
-    };
-    let (unit, value, spread) = match parts {
-        [unit, value] => (unit, value, Spread::Without),
-        [unit, value, Value::Null, Value::Null] => (unit, value, Spread::Unknown),
-        [unit, value, low, high, freedom] => {
-            let interval = Interval {
-                low: low.as_f64()?,
-                high: high.as_f64()?,
-                freedom: u32::try_from(freedom.as_u64()?).ok().filter(|f| *f > 0)?,
-            };
-            (unit, value, Spread::Interval(interval))
-        }
-        _ => return None,
-    };
-    Some(Quantity { name: name.to_owned(), unit: unit.as_str()?.to_owned(), value: number(value)?, spread })
+fn quantity(name: &str, written: &Value) -> Option<Quantity> {
+    let quantity: Quantity = serde_json::from_value(written.clone()).ok()?;
+    Some(Quantity { name: name.to_owned(), ..quantity })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use brinell::result::Spread;
+    use brinell::signal::Interval;
 
     fn quantity(name: &str, value: Option<f64>, spread: Spread) -> Quantity {
         Quantity { name: name.into(), unit: "m/s^2".into(), value, spread }
@@ -170,8 +142,8 @@ mod tests {
             "[]",
             r#"{"settings":{},"scenario":"a","brinell":"1"}"#,
             r#"{"settings":{"a":1},"scenario":"a","brinell":"1","failed":"x"}"#,
-            r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":[1,2]}}"#,
-            r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":["m","2"]}}"#,
+            r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":{"unit":1,"value":2}}}"#,
+            r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":{"unit":"m","value":"2"}}}"#,
             r#"{"settings":{},"scenario":"a","brinell":"1","values":{},"warnings":[1]}"#,
         ] {
             assert_eq!(Row::from_json(&serde_json::from_str(text).unwrap()), None, "{text}");

@@ -4,8 +4,8 @@
 use super::Compared;
 use brinell::document::{Loaded, Provenance};
 use brinell::result::Quantity;
+use brinell::signal::Written;
 use brinell::signal::ratio::Ratio;
-use brinell::summary::with_interval;
 use brinell_io::{Cells, Column, Table};
 use serde_json::{Map, Value, json};
 
@@ -142,8 +142,8 @@ pub fn sides_scenarios(sides: &[Side]) -> Map<String, Value> {
 
 /// What `compare.json` holds; `warnings` are what its reader should know.
 pub fn sides_json(sides: &[Side], compared: &[Compared], warnings: &[String]) -> Value {
-    let value = |q: &Quantity| with_interval(q.value, q.interval());
-    let ratio = |r: &Ratio| with_interval(r.value, r.interval);
+    let value = |q: &Quantity| json!(Written::new(q.value, q.interval()));
+    let ratio = |r: &Ratio| json!(r);
     let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
         let pairs = sides.iter().enumerate();
         pairs.filter_map(|(k, side)| Some((side.label.clone(), of(k)?))).collect()

@@ -11,12 +11,12 @@ use brinell::model::{Layout, Model};
 use brinell::observe::Findings;
 use brinell::observe::slip::RowSlip;
 use brinell::plausibility::Beforehand;
+use brinell::result::Parts;
 use brinell::result::{RunResult, finish};
 use brinell::scenario::{self, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
-use brinell::summary::{self, Parts};
 use brinell_io::Column;
 use serde_json::{Map, Value as Json};
 
@@ -134,7 +134,7 @@ impl<'a> Run<'a> {
         let (loaded, RunResult { scenario, simulation, outcome, .. }) =
             (self.loaded.as_ref()?, &self.ended.as_ref()?.0);
         let beforehand = &Beforehand::of(scenario, simulation.model());
-        Some(summary::warnings(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None }))
+        Some(Parts { loaded, simulation, outcome, findings, beforehand, healthy: None }.warnings())
     }
 
     /// What was found of a run that came to its end.

@@ -1,5 +1,7 @@
 //! Which set of laws a scenario has, and which keys of it hold something else.
 
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt;
 
 use super::keys::{Case, Fallback, Keys, Variant};
@@ -27,7 +29,7 @@ const TIME: &str = "contact.damping_time_us";
 const CONSTANT: &str = "contact.damping_ns_per_m";
 
 /// A key that holds something else than its set of laws has.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Difference {
     /// The key.
     pub key: String,

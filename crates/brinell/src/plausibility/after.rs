@@ -176,8 +176,8 @@ fn residual(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> 
         let now = energy.relative_residual().map_or(0.0, f64::abs);
         let judged = if left.is_some() { "still more than" } else { "below" };
         return Some(format!(
-            "refined: at simulation.accuracy = \"standard\" the energy audit closed to {} % of the turnover, so the run was made again at \"reference\"; \
-             there it closes to {} %, {judged} the {limit} % of a run to rely on",
+            "refined: at simulation.accuracy = \"standard\" the energy balance error was {} %, so the run was made again at \"reference\"; \
+             there it is {} %, {judged} the {limit} % of a run to rely on",
             percent(first),
             percent(now)
         ));
@@ -190,7 +190,7 @@ fn residual(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> 
     };
     left.map(|share| {
         format!(
-            "the energy audit closes to {:.1} % of the turnover, and {limit} % is the limit of a run to rely on: {remedy}",
+            "the energy balance error is {:.1} %, and {limit} % is the limit of a run to rely on: {remedy}",
             100.0 * share
         )
     })

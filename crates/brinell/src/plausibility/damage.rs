@@ -121,10 +121,7 @@ fn beside_the_ellipse(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
             };
             (
                 ("simulation.model".into(), "\"lumped\"".into()),
-                format!(
-                    "defect {} {lies}, and {ellipse}; the lumped model knows the depth at z = 0 alone{felt}",
-                    k + 1
-                ),
+                format!("defect {} {lies}, and {ellipse}; the lumped model uses only the depth at z = 0{felt}", k + 1),
                 "\"full\"".into(),
             )
         } else {

@@ -50,7 +50,8 @@ fn load_beside_the_bearing(scenario: &Scenario) -> Option<Problem> {
         warning(
             "operation.load_offset_mm",
             toml_float(offset),
-            "the load acts beyond the bearing's faces: it is a moment for which the supports against tilting must be meant".into(),
+            "the load acts beyond the bearing's faces: check the tilt supports, as this offset load is mostly a moment"
+                .into(),
             format!("{} to {}", short(-half), short(half)),
         )
     })

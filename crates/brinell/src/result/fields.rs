@@ -94,13 +94,13 @@ fields! {
     ENERGY_RESIDUAL "energy_residual" "J" Exact "energy that no entry of the audit explains" |o| Some(o.energy.residual());
     RELATIVE_RESIDUAL "energy_residual_over_turnover" "1" Exact "energy that no entry of the audit explains, over all that moved"
         |o| o.energy.relative_residual();
+    PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
     MOMENTUM_IMBALANCE "momentum_imbalance" "1" Extreme "largest relative imbalance of momentum, linear and angular" |o| o.momentum_imbalance;
 }
 
 fields! {
-    "What `summary.json` and data sets give in addition."
+    "How far the run came."
     COURSE: fn(&Outcome) -> Option<f64>;
-    PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
     REACHED "reached" "s" Exact "simulated time that the run reached: its duration where it is complete" |o| Some(o.reached);
 }
 
@@ -160,8 +160,32 @@ fields! {
 fields! {
     "Of a defect's entries and of its exits, in this order."
     IMPACTS: fn(&Impacts) -> Option<Estimate>;
-    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller enters the defect, within half its pass and before another leaves it; none where that is mostly too soon; other rollers and defects add to it" |i| i.peak;
-    EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect, within half its pass and before the next one enters; none where that is mostly too soon; other rollers and defects add to it" |i| i.peak;
+    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller enters the defect, within half its pass and before another leaves it; missing if rollers pass too close together; includes effects of other rollers and defects" |i| i.peak;
+    EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect, within half its pass and before the next one enters; missing if rollers pass too close together; includes effects of other rollers and defects" |i| i.peak;
+}
+
+/// A regular expression of a number's name, its unit (`None`: the channel's), what it is.
+pub type Form = (String, Option<&'static str>, &'static str);
+
+/// The numbers that a run may have.
+pub fn forms() -> impl Iterator<Item = Form> {
+    fn of<F>(subject: &'static str, list: &'static [Field<F>]) -> impl Iterator<Item = Form> {
+        list.iter().map(move |field| (format!("^{subject}{}$", field.name), Some(field.unit), field.meaning))
+    }
+    let channel = r"[a-z]\w*(\.anti_aliased)?\.";
+    let own = |name: &str, meaning| (format!("^{channel}{name}$"), None, meaning);
+    let indicators = Indicator::ALL.map(|i| own(i.name(), i.meaning()));
+    let records = record("").map(|field| own(field.name, field.meaning));
+    (indicators.into_iter().chain(records))
+        .chain(of(r"envelope\.", LINES))
+        .chain(of(r"defect\d+\.", DEFECT))
+        .chain(of(r"defect\d+\.", IMPACTS))
+        .chain(of(r"row\d+\.", SLIP))
+        .chain(of(r"row\d+\.", LOAD))
+        .chain(of(r"audit\.", AUDITS))
+        .chain(of(r"work\.", WORK))
+        .chain(of("", ANALYSED))
+        .chain(of("", COURSE))
 }
 
 /// Whether a number, by its name, can be below 0.

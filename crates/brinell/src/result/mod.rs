@@ -4,6 +4,7 @@
 pub mod fields;
 mod healthy;
 mod impacts;
+mod parts;
 mod quantities;
 mod run;
 
@@ -13,7 +14,9 @@ pub use fields::can_be_negative;
 pub use healthy::{Stretch, beside_healthy};
 #[doc(hidden)]
 pub use impacts::{Impacts, impacts};
+#[doc(hidden)]
+pub use parts::Parts;
 pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
-pub use quantities::{UnknownName, check_name, listed, names, quantities};
+pub use quantities::{UnknownName, by_name, check_name, listed, names, quantities};
 pub use run::{RunResult, finish, record, simulate, simulate_with};

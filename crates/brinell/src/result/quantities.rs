@@ -8,7 +8,7 @@
 
 use super::fields::{
     ANALYSED_FROM, ANALYSED_TURNS, AUDITS, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect, LINES, LOAD, NOT_SETTLED,
-    SLIP, WORK, exact, indicator, record,
+    REACHED, SLIP, WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
 use crate::did_you_mean::did_you_mean;
@@ -17,22 +17,29 @@ use crate::scenario::Scenario;
 use crate::signal::spectrum::{Peak, peak_near};
 use crate::signal::{Estimate, Indicator, Interval, LineSearch};
 use crate::simulate::{Outcome, Simulation};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
-/// One number of a run.
-#[derive(Debug, Clone, PartialEq)]
+/// One number of a run. Files have it by its name, as `{"unit", "value", "low", "high", "freedom"}`: `low` and `high` are the ends of its 95 %
+/// interval, null where the run is too short to tell, and not there where the number never has one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Quantity {
     /// What it is: `sensor_ax.rms`.
+    #[serde(skip)]
     pub name: String,
     /// SI unit; 1 where it has none.
     pub unit: String,
     /// The value; `None` where there is none, and never infinite or not a number.
     pub value: Option<f64>,
     /// What is known of its scatter.
+    #[serde(flatten)]
     pub spread: Spread,
 }
 
 /// Whether a number comes with an interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "Ends", into = "Ends")]
 pub enum Spread {
     /// It never does: a count, an extreme.
     Without,
@@ -40,6 +47,35 @@ pub enum Spread {
     Unknown,
     /// 95 % interval of the same quantity; the value lies within it.
     Interval(Interval),
+}
+
+/// [`Spread`] in a file.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Ends {
+    Known(Interval),
+    Unknown { low: (), high: () },
+    Without {},
+}
+
+impl From<Ends> for Spread {
+    fn from(ends: Ends) -> Self {
+        match ends {
+            Ends::Known(interval) => Spread::Interval(interval),
+            Ends::Unknown { .. } => Spread::Unknown,
+            Ends::Without {} => Spread::Without,
+        }
+    }
+}
+
+impl From<Spread> for Ends {
+    fn from(spread: Spread) -> Self {
+        match spread {
+            Spread::Interval(interval) => Ends::Known(interval),
+            Spread::Unknown => Ends::Unknown { low: (), high: () },
+            Spread::Without => Ends::Without {},
+        }
+    }
 }
 
 impl Quantity {
@@ -78,6 +114,12 @@ impl<F> Field<F> {
     }
 }
 
+/// Numbers by name, as files have them.
+pub fn by_name(quantities: &[Quantity]) -> Map<String, Value> {
+    let one = |q: &Quantity| (q.name.clone(), serde_json::to_value(q).unwrap_or_default());
+    quantities.iter().map(one).collect()
+}
+
 /// Every number that is reported of a run, in a fixed order.
 pub fn quantities(
     scenario: &Scenario,
@@ -96,6 +138,7 @@ pub fn quantities(
     all.extend(WORK.iter().map(work));
     all.push(analysed(&ANALYSED_FROM, findings));
     all.push(analysed(&NOT_SETTLED, findings));
+    all.push(REACHED.quantity("", exact((REACHED.of)(outcome))));
     all
 }
 

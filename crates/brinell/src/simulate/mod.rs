@@ -162,7 +162,7 @@ pub enum End {
     Failed(Error),
 }
 
-/// What remains of a run when its rows are gone.
+/// Run summary (no time series).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// How it ended.
@@ -278,6 +278,11 @@ impl Simulation {
     /// The recorded channels, in the order of rows; time is not among them.
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+
+    /// Name, unit and description of each of [`Simulation::channels`], as files have them.
+    pub fn table(&self) -> impl Iterator<Item = (&str, &str, &str)> {
+        self.channels.iter().map(|c| (&*c.name, c.unit, &*c.description))
     }
 
     /// The accelerations that pass the anti-alias filter: the sensor channels, x and y of the outer ring and the

@@ -6,7 +6,7 @@ use clap::Args;
 /// The options about the signal in a file.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 pub(crate) struct SignalArgs {
-    /// Channel: its name, words of it that no other has (DE of X098_DE_time), or its number from 1; `X(:,2)` takes a matrix's column. `analyze` takes
+    /// Channel name, a unique part of it (`DE` for `X098_DE_time`), or its number from 1; `X(:,2)` takes a matrix's column. `analyze` takes
     /// it again for further ones of the same machine, as of a triaxial sensor or of both ends: each is judged, and the clearest leads
     #[arg(long, value_name = "NAME|N")]
     pub(crate) channel: Vec<String>,
@@ -27,16 +27,16 @@ pub(crate) struct SignalArgs {
     /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
-    /// The sensor's, of a signal in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
+    /// Sensor sensitivity, for signals in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
     #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
     pub(crate) sensitivity: Option<String>,
-    /// Of a WAV: what its largest number means, as 5V (with --sensitivity) or 10g
+    /// Full scale of a WAV file: 5V (with --sensitivity) or 10g
     #[arg(long, value_name = "VALUE", conflicts_with = "unit", allow_negative_numbers = true)]
     pub(crate) full_scale: Option<String>,
-    /// Skip so much of the signal's beginning
+    /// Start time in s
     #[arg(long, value_parser = quantity("s", "0 s or more, as 0.5 or 500ms"), value_name = "S")]
     pub(crate) start: Option<f64>,
-    /// Use so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
+    /// Length in s from the start time [default: to the end; of a long signal the first and the last 4194304 samples]
     #[arg(long, value_parser = quantity("s", "more than 0 s, as 2 or 500ms"), value_name = "S")]
     pub(crate) duration: Option<f64>,
 }

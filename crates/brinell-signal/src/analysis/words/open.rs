@@ -170,7 +170,7 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
     }
 }
 
-/// Lines that are nobody's of this bearing.
+/// Lines that no frequency of this bearing explains.
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     let nearest = elsewhere.nearest.map_or(String::new(), |n| {
         format!(

@@ -62,7 +62,7 @@ impl Checker<'_> {
                 self.error(
                     &key,
                     format!(
-                        "beyond half the rate at which a run follows the ring, {FACTOR} samples for one recorded: it would do nothing, leave it out"
+                        "above the Nyquist frequency of the internal rate, {FACTOR} times the recorded one: remove this key"
                     ),
                     format!("< {}", short(top)),
                     &[RATE],
