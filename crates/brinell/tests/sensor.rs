@@ -148,7 +148,7 @@ fn refused(keys: &str) -> Vec<Problem> {
 #[test]
 fn regress_bad_sensors_are_named_with_line_and_remedy() {
     let cases = [
-        ("mounting_resonance_hz = 200e3", "sensor.mounting_resonance_hz", "beyond half the rate", "< 102400 Hz"),
+        ("mounting_resonance_hz = 200e3", "sensor.mounting_resonance_hz", "above the Nyquist frequency", "< 102400 Hz"),
         ("mounting_resonance_hz = 0.1", "sensor.mounting_resonance_hz", "too slow", ">= 0.256 Hz"),
         (
             "mounting_damping_ratio = 0.1",
@@ -167,7 +167,7 @@ fn regress_bad_sensors_are_named_with_line_and_remedy() {
         (
             "path = [{ frequency_hz = 300e3, gain = 1 }]",
             "sensor.path.0.frequency_hz",
-            "beyond half the rate",
+            "above the Nyquist frequency",
             "< 102400 Hz",
         ),
         ("path = [{ frequency_hz = 300.0 }]", "sensor.path.0.gain", "missing", ""),
