@@ -200,7 +200,7 @@ fn defects(parts: &Parts) -> Vec<DefectPlace> {
             row: of.row,
             center_deg: d.center.to_degrees(),
             length_mm: 1e3 * (last - first),
-            area_mm2: 1e6 * d.shape.area(),
+            area_mm2: 1e6 * d.area(),
             arc_deg: ((last - first) / d.radius).to_degrees(),
             line: line.map(|l| Line {
                 name: l.name,

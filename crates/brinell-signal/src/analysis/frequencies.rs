@@ -241,6 +241,12 @@ impl NamedBearing {
         let plain = |text: &str| -> String {
             (text.chars().filter(|c| c.is_alphanumeric())).flat_map(char::to_lowercase).collect()
         };
+        // 62/22 has a bore of 22 mm, and is not 6222.
+        let digit = |c: u8| c.is_ascii_digit();
+        let has_bore = |part: &[u8]| digit(part[0]) && part[1] == b'/' && digit(part[2]) && digit(part[3]);
+        if name.as_bytes().windows(4).any(has_bore) {
+            return None;
+        }
         let wanted = plain(name);
         let makers = ["skf", "ldk", "rexnord", "mb", "fag", "nsk", "ntn"];
         let maker = |known: &str| makers.iter().any(|m| wanted == format!("{m}{known}"));

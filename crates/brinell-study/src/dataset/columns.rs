@@ -154,7 +154,7 @@ const TRUTH: [Fixed; 55] = [
         Shape::DepthMap(grid) => 1e6 * grid.extremes().0.max(grid.extremes().1),
         _ => 1e6 * largest(d, |s| d.depth_at(s)),
     }))),
-    ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.shape.area()))),
+    ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.area()))),
     ("defect_frequency_hz", "Hz", "of each defect: its ball-pass frequency (of a roller twice the spin frequency), in pure rolling at constant speed", Numbers(|r| {
         let k = r.kinematics()?;
         r.defects(|d, _| k.defect_frequency(d.on).1)

@@ -6,7 +6,7 @@
 
 mod series;
 
-use super::designation::{of_one_kind, plain, readings, with_zeros};
+use super::designation::{has_bore_in_mm, of_one_kind, plain, readings, with_zeros};
 use super::kinematics::Geometry;
 use crate::did_you_mean::did_you_mean;
 use crate::scenario::{Choice, Laws};
@@ -148,7 +148,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 /// The same without suffixes and maker.
 #[doc(hidden)]
 pub fn find_exactly(name: &str) -> Option<&'static Entry> {
-    let wanted = plain(name);
+    let wanted = Some(plain(name)).filter(|_| !has_bore_in_mm(name))?;
     let lines = LINES.iter().find(|lines| plain(lines.name) == wanted)?;
     Some(lines.entry.get_or_init(|| of_lines(lines.text)))
 }

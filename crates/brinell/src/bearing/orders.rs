@@ -211,6 +211,7 @@ mod tests {
             ("Rexnord ER 16 KCL", "ER-16K"),
             ("NSK 6804DD", "6804DD"),
             ("6804 ZZ", "6804"),
+            ("6205/2RS", "6205-2RS"),
             ("FAG 22205-E1-XL-K/C3", "22205"),
             ("22228 CCK/W33", "22228"),
             ("1205 ETN9", "1205"),
@@ -226,7 +227,9 @@ mod tests {
         ] {
             assert_eq!(KnownBearing::find(name).map(KnownBearing::name), Some(known), "{name}");
         }
-        for name in ["2221", "22210", "62052", "ER-20K", "UC216", "120", "7205", "7205 ACD", "51105", "3020"] {
+        for name in [
+            "2221", "22210", "62052", "62/22", "60 / 22", "ER-20K", "UC216", "120", "7205", "7205 ACD", "51105", "3020",
+        ] {
             let words = KnownBearing::named(name).unwrap_err();
             assert!(words.contains("the number of rolling elements, their diameter"), "{words}");
         }

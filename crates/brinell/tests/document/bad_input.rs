@@ -294,6 +294,7 @@ fn prop_damage_wider_than_the_roller_is_that_cut_to_it() {
             let loaded = with(OUTER, &[("defects.0.shape", shape)]).unwrap_or_else(|p| panic!("{}", report(&p)));
             brinell::model::Model::new(&loaded.scenario).unwrap()
         });
+        assert!((wide.defects[0].area() / cut.defects[0].area() - 1.0).abs() < 1e-9);
         for k in -20..=20 {
             let s = 1e-4 * f64::from(k);
             let [wide, cut] = [&wide, &cut].map(|model| model.defects[0].damaged_length(s));
