@@ -185,7 +185,8 @@ class Result:
     @property
     def defects(self) -> list[dict[str, Any]]:
         """Where each defect lies, how large it is, and the name of its line; what was found of it is under ``defectN.`` in ``quantities``."""
-        return self.summary["defects"]
+        places: list[dict[str, Any]] = self.summary["defects"]
+        return places
 
     def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
         """Which defect frequencies are detected in this run, its start (``analysed_from_s``) left out.
