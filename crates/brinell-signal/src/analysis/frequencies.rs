@@ -218,6 +218,20 @@ pub static NAMED: LazyLock<Vec<NamedBearing>> = LazyLock::new(|| {
     rows.map(|row| NamedBearing::of_row(row).unwrap_or_else(|| panic!("frequencies.csv: {row}"))).collect()
 });
 
+/// Whether a slash stands between two digits, as before a bore in mm: 62/22 is another bearing than 6222.
+#[doc(hidden)]
+pub fn has_bore_in_mm(name: &str) -> bool {
+    let mut parts = name.split('/').map(str::trim);
+    let mut before = parts.next().unwrap_or_default();
+    parts.any(|part| {
+        // One digit alone is a number of seals: 6205/2RS.
+        let two = part.len() > 1 && part.bytes().take(2).all(|c| c.is_ascii_digit());
+        let joint = before.ends_with(|c: char| c.is_ascii_digit()) && two;
+        before = part;
+        joint
+    })
+}
+
 impl NamedBearing {
     fn of_row(row: &'static str) -> Option<Self> {
         let mut cells = row.splitn(10, ';');
@@ -241,10 +255,7 @@ impl NamedBearing {
         let plain = |text: &str| -> String {
             (text.chars().filter(|c| c.is_alphanumeric())).flat_map(char::to_lowercase).collect()
         };
-        // 62/22 has a bore of 22 mm, and is not 6222.
-        let digit = |c: u8| c.is_ascii_digit();
-        let has_bore = |part: &[u8]| digit(part[0]) && part[1] == b'/' && digit(part[2]) && digit(part[3]);
-        if name.as_bytes().windows(4).any(has_bore) {
+        if has_bore_in_mm(name) {
             return None;
         }
         let wanted = plain(name);

@@ -42,6 +42,8 @@ pub use drift::Drift;
 pub use elsewhere::Elsewhere;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Finding, Harmonic, Sidebands};
+#[doc(hidden)]
+pub use frequencies::has_bore_in_mm;
 pub use frequencies::{Component, DefectOrders, Measures, NAMED, NamedBearing, Wording, most_elements};
 pub use json::to_json;
 pub use levels::Levels;
@@ -65,6 +67,7 @@ use crate::{
 };
 use error::LARGEST;
 use hypotheses::{Best, SpeedEvidence};
+use severity::band_kurtosis;
 use together::{Envelopes, Paced};
 use verdict::Record;
 
@@ -254,11 +257,8 @@ fn view(record: &Record, envelopes: &Envelopes, records: &[Paced]) -> Result<Vie
 
 /// Kurtosis of what lies in a band, averaged over records by their length.
 fn kurtosis_in(band: Band, records: &[&[f64]], fs: f64, shaft: f64) -> Option<f64> {
-    let each = records
-        .iter()
-        .zip(shares(records))
-        .map(|(x, share)| Some(share * band_level(x, fs, band, shaft)?.kurtosis.value));
-    each.sum()
+    let each = records.iter().zip(shares(records)).map(|(x, share)| Some((band_kurtosis(x, fs, band, shaft)?, share)));
+    Some(Estimate::pooled(&each.collect::<Option<Vec<_>>>()?, 1).value)
 }
 
 /// Of records less their means, averaged over revolutions of `revolution` samples.

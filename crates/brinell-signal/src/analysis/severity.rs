@@ -179,15 +179,26 @@ pub struct BandLevel {
 pub fn band_level(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<BandLevel> {
     let mut faded = x.to_vec();
     let end = fade(&mut faded, fs, band.low);
-    let inner = |values: Vec<f64>| Blocks::of(&values[end..x.len() - end], fs / shaft);
-    let inside = inner(band_pass(&faded, fs, band).ok()?);
-    let envelope = inner(envelope(&faded, fs, band).ok()?);
+    let envelope = Blocks::of(&envelope(&faded, fs, band).ok()?[end..x.len() - end], fs / shaft);
     Some(BandLevel {
         band,
-        kurtosis: inside.estimate(Indicator::Kurtosis)?,
+        kurtosis: kurtosis_within((&faded, end), fs, band, shaft)?,
         envelope_rms: envelope.estimate(Indicator::Rms)?,
         envelope_peak: envelope.estimate(Indicator::Peak)?,
     })
+}
+
+/// [`BandLevel::kurtosis`] alone.
+pub(super) fn band_kurtosis(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<Estimate> {
+    let mut faded = x.to_vec();
+    let end = fade(&mut faded, fs, band.low);
+    kurtosis_within((&faded, end), fs, band, shaft)
+}
+
+/// Of a faded signal, of which so many samples at either end do not count.
+fn kurtosis_within((faded, end): (&[f64], usize), fs: f64, band: Band, shaft: f64) -> Option<Estimate> {
+    let inside = band_pass(faded, fs, band).ok()?;
+    Blocks::of(&inside[end..faded.len() - end], fs / shaft).estimate(Indicator::Kurtosis)
 }
 
 #[cfg(test)]

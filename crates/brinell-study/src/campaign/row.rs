@@ -1,6 +1,6 @@
 //! What is kept of a point: its settings, which scenario it was, and its numbers or why there are none.
 
-use brinell::result::{Quantity, by_name};
+use brinell::result::{Quantity, by_name, named};
 use brinell::scenario::Scenario;
 use brinell_io::hexadecimal;
 use serde_json::{Map, Value, json};
@@ -41,9 +41,7 @@ impl Row {
             "settings": settings, "scenario": self.scenario, "brinell": self.version,
         });
         match &self.result {
-            Ok(quantities) => {
-                object["values"] = by_name(quantities).into();
-            }
+            Ok(quantities) => object["values"] = by_name(quantities).into(),
             Err(reason) => object["failed"] = reason.as_str().into(),
         }
         if !self.warnings.is_empty() {
@@ -59,10 +57,7 @@ impl Row {
         let settings = settings.map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned())));
         let result = match value.get("failed") {
             Some(reason) => Err(reason.as_str()?.to_owned()),
-            None => {
-                let values = value.get("values")?.as_object()?.iter();
-                Ok(values.map(|(name, parts)| quantity(name, parts)).collect::<Option<Vec<_>>>()?)
-            }
+            None => Ok(named(value.get("values")?.as_object()?)?),
         };
         let warnings = value.get("warnings").and_then(Value::as_array).into_iter().flatten();
         Some(Row {
@@ -79,11 +74,6 @@ impl Row {
         let quantities = self.result.as_ref().ok()?;
         quantities.iter().find(|q| q.name == name)
     }
-}
-
-fn quantity(name: &str, written: &Value) -> Option<Quantity> {
-    let quantity: Quantity = serde_json::from_value(written.clone()).ok()?;
-    Some(Quantity { name: name.to_owned(), ..quantity })
 }
 
 #[cfg(test)]

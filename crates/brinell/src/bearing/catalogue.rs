@@ -6,8 +6,9 @@
 
 mod series;
 
-use super::designation::{has_bore_in_mm, of_one_kind, plain, readings, with_zeros};
+use super::designation::{of_one_kind, plain, readings, with_zeros};
 use super::kinematics::Geometry;
+use crate::analysis::has_bore_in_mm;
 use crate::did_you_mean::did_you_mean;
 use crate::scenario::{Choice, Laws};
 use serde_json::Value as Json;

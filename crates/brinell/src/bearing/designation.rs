@@ -70,19 +70,6 @@ pub(super) fn readings(name: &str) -> Vec<(String, String)> {
     found
 }
 
-/// Whether a slash stands between two digits, as before a bore in mm: 62/22 is another bearing than 6222.
-pub(super) fn has_bore_in_mm(name: &str) -> bool {
-    let mut parts = name.split('/').map(str::trim);
-    let mut before = parts.next().unwrap_or_default();
-    parts.any(|part| {
-        // One digit alone is a number of seals: 6205/2RS.
-        let two = part.len() > 1 && part.bytes().take(2).all(|c| c.is_ascii_digit());
-        let joint = before.ends_with(|c: char| c.is_ascii_digit()) && two;
-        before = part;
-        joint
-    })
-}
-
 pub(super) fn is_gap(c: char) -> bool {
     c.is_whitespace() || matches!(c, '-' | '.' | '_')
 }

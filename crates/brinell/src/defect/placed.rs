@@ -222,16 +222,9 @@ impl Defect {
         (to - from).max(0.0)
     }
 
-    /// Area seen from above, within the roller's length, m^2.
+    /// Area seen from above, within the roller's length, m^2; outlines and depth maps are cut to it where they are made.
     pub fn area(&self) -> f64 {
-        const CELLS: u32 = 20_000;
-        // These are cut where they are made.
-        if matches!(self.shape, Shape::Outline(_) | Shape::DepthMap(_)) {
-            return self.shape.area();
-        }
-        let (first, last) = self.shape.arc();
-        let ds = (last - first) / f64::from(CELLS);
-        (0..CELLS).map(|k| self.damaged_length(first + (f64::from(k) + 0.5) * ds) * ds).sum()
+        self.shape.area_where(|s| self.damaged_length(s))
     }
 
     /// h_s at the arc coordinate s (m) on the damage, before any envelope.

@@ -255,6 +255,11 @@ impl Shape {
 
     /// Area seen from above, m^2; of a closed form by the midpoint rule, of a depth map of the surface between its nodes.
     pub fn area(&self) -> f64 {
+        self.area_where(|s| self.damaged_length(s))
+    }
+
+    /// The same of a closed form whose damaged length is `length` of the arc coordinate.
+    pub(super) fn area_where(&self, length: impl Fn(f64) -> f64) -> f64 {
         const CELLS: u32 = 20_000;
         match self {
             Self::Outline(outline) => return outline.width().integral(),
@@ -263,7 +268,7 @@ impl Shape {
         }
         let (first, last) = self.arc();
         let ds = (last - first) / f64::from(CELLS);
-        (0..CELLS).map(|k| self.damaged_length(first + (f64::from(k) + 0.5) * ds) * ds).sum()
+        (0..CELLS).map(|k| length(first + (f64::from(k) + 0.5) * ds) * ds).sum()
     }
 }
 

@@ -18,5 +18,5 @@ pub use impacts::{Impacts, impacts};
 pub use parts::Parts;
 pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
-pub use quantities::{UnknownName, by_name, check_name, listed, names, quantities};
+pub use quantities::{UnknownName, by_name, check_name, listed, named, names, quantities};
 pub use run::{RunResult, finish, record, simulate, simulate_with};

@@ -120,6 +120,14 @@ pub fn by_name(quantities: &[Quantity]) -> Map<String, Value> {
     quantities.iter().map(one).collect()
 }
 
+/// What [`by_name`] gave; `None` where it is not that.
+pub fn named(written: &Map<String, Value>) -> Option<Vec<Quantity>> {
+    let one = |(name, number): (&String, &Value)| {
+        Some(Quantity { name: name.clone(), ..Quantity::deserialize(number).ok()? })
+    };
+    written.iter().map(one).collect()
+}
+
 /// Every number that is reported of a run, in a fixed order.
 pub fn quantities(
     scenario: &Scenario,
