@@ -46,7 +46,7 @@ def together(words, *names):
 
 variant("plain sum over harmonics", ("family.rs", "sum += least;", "sum += ratio.max(f64::MIN_POSITIVE).ln();"))
 variant("no modulation asked of a high score", ("family.rs", "const FAINT: f64 = 0.14;", "const FAINT: f64 = 0.0;"))
-variant("no score limit: 14 % suffices beyond noise", ("family.rs", "limit: SCORE.max(noise),", "limit: noise,"))
+variant("no score limit: 14 % suffices beyond noise", ("family.rs", "limit: high(rise).max(noise),", "limit: noise,"))
 variant("a high score is no way to damage", ("family.rs", "        high || deep\n", "        deep\n"))
 variant("deep modulation is no way to damage", ("family.rs", "        high || deep\n", "        high\n"))
 variant("a comb elsewhere not sought", ("verdict.rs", "if is_open { None } else { self.search().comb(lead.map(|k| &all[k])) };", "None;"))
