@@ -46,6 +46,23 @@ def test_prop_numbers_of_any_kind_keep_their_bits():
         assert scenario["operation.load_n"] == [300.0, 0.0]
 
 
+def test_prop_energies_of_a_damaged_contact_are_a_law():
+    operation = {**OPERATION}
+    spall = brinell.rectangle(length_mm=3.0, width_mm=4.0, depth_um=20.0)
+    scenario = brinell.Scenario(bearing="NN3007", operation=operation, defects=[spall], simulation={"duration_s": 0.05})
+    k, n = scenario["contact.outer_stiffness"], scenario["contact.exponent"]
+    s, delta = np.linspace(-2.0, 2.0, 41), np.linspace(0.0, 10.0, 21)
+    energy = k * (1e-6 * delta) ** (n + 1) / (n + 1)
+
+    def run(share):
+        table = {"s_mm": s, "delta_um": delta, "energy_j": np.outer(share, energy).ravel()}
+        return brinell.simulate(scenario.replace({"defects.0.table": table}))["sensor_ax.rms"]
+
+    healthy = brinell.simulate(scenario.replace({"defects": []}))["sensor_ax.rms"]
+    assert run(np.ones(41)) == pytest.approx(healthy, rel=0.1)
+    assert run(np.clip(np.abs(s) / 1.5 - 1.0 / 3.0, 0.4, 1.0)) > 1.5 * healthy
+
+
 def test_prop_problems_come_all_at_once_and_without_lines_that_nobody_sees():
     with pytest.raises(brinell.ScenarioError) as caught:
         brinell.Scenario(bearing={"preset": "NN3007", "rows": 0}, operation={"speed_rpm": "fast", "lod_n": [1.0, 0.0]})

@@ -80,7 +80,7 @@ pub fn table_of_bytes(bytes: &[u8]) -> Result<TableData, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
         format!(
-            "line {line}: not a text file in UTF-8; a CSV file with the columns s_mm,delta_um,delta_eff_um is needed"
+            "line {line}: not a text file in UTF-8; a CSV file with the columns s_mm,delta_um,delta_eff_um (or energy_j) is needed"
         )
     })?;
     TableData::from_csv_text(text).map_err(|fault| fault.to_string())
@@ -162,7 +162,7 @@ fn can_be_read_again(resolved: &Scenario, files: &[Named]) -> Result<(), Vec<Unr
     let text = resolved.to_toml().len() as u64;
     if text > LARGEST_TEXT {
         let numbers = |(i, key, _): &Named| match (&resolved.defects[*i].table, key.ends_with(".table")) {
-            (Some(DefectTable::Read(table)), true) => table.delta_eff_um.len(),
+            (Some(DefectTable::Read(table)), true) => table.values.list().len(),
             _ => size(&resolved.defects[*i].shape),
         };
         let largest = files.iter().max_by_key(|named| numbers(named)).unwrap_or(&files[0]);

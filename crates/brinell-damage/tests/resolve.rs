@@ -284,7 +284,7 @@ fn prop_a_table_comes_from_its_file_and_is_written_out() {
         tabled("good", "s_mm,delta_um,delta_eff_um,note\n-2,0,0,a\n-2,5,5,b\n2,0,0,c\n2,5,5,d\n");
     assert_eq!(resolve(&mut scenario, &folder), Ok(vec![]));
     let Some(DefectTable::Read(table)) = &scenario.defects[0].table else { panic!("no table") };
-    assert_eq!(table.delta_eff_um, [0.0, 5.0, 0.0, 5.0]);
+    assert_eq!(table.values.list(), [0.0, 5.0, 0.0, 5.0]);
     assert_eq!(read(&scenario.to_toml(), &[]).unwrap().scenario, scenario);
     fs::remove_dir_all(folder).unwrap();
 }

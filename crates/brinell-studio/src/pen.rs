@@ -153,9 +153,9 @@ pub(crate) fn resolved(
             find(file).ok_or_else(missing)
         };
         if let Some(file) = defect.table_file() {
-            let TableData { s_mm, delta_um, delta_eff_um } = table_of_bytes(bytes_of(file)?).map_err(Trouble::of)?;
+            let TableData { s_mm, delta_um, values } = table_of_bytes(bytes_of(file)?).map_err(Trouble::of)?;
             let keys = stated_keys.get_or_insert_with(|| text::stated(&text));
-            keys["defects"][k]["table"] = json!({ "s_mm": s_mm, "delta_um": delta_um, "delta_eff_um": delta_eff_um });
+            keys["defects"][k]["table"] = json!({ "s_mm": s_mm, "delta_um": delta_um, values.name(): values.list() });
         }
         let Some(file) = defect.shape.file().map(str::to_owned) else {
             continue;

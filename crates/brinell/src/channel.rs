@@ -243,10 +243,10 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     let law = model.contact(side);
     let length = model.geometry.roller_length;
     // Equal forces must give the healthy stiffness to the bit.
-    if !c.on_damage[slot] && model.slices.is_none() {
+    if !c.on_damage[slot] && model.slices.is_none() && model.custom.contact.is_none() {
         return law.stiffness;
     }
-    if model.law == Law::HalfSpace {
+    if model.law == Law::HalfSpace || model.custom.contact.is_some() {
         let power = law.exponent.of(c.deformation[slot]);
         // Of delta at z = 0, before the profile (section 16).
         return if power > 0.0 { c.elastic[slot] / power } else { law.stiffness };

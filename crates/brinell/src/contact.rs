@@ -1,18 +1,26 @@
-//! Normal contact of a roller and a raceway: the load-deflection law, healthy and damaged.
+//! Normal contact of a rolling element and a raceway: [`ContactLaw`] for a law of one's own; the program's load-deflection law, healthy and damaged.
 //!
 //! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of
 //! the bodies beyond first touch.
 
+#[doc(hidden)]
 pub mod ball;
 mod damping;
+#[doc(hidden)]
 pub mod film;
+mod law;
+mod side;
 
 use crate::elementary::Exponent;
 use crate::lanes::{Lanes, eight_ninths};
+#[doc(hidden)]
 pub use damping::{Damping, damped};
+pub use law::{ContactLaw, Elastic, Place};
+pub use side::{SIDES, Side};
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
 /// the effective contact length in mm to N/m^(10/9).
+#[doc(hidden)]
 pub fn palmgren_stiffness(length_mm: f64) -> f64 {
     8.06e4 * length_mm.powf(8.0 / 9.0) * 1e3f64.powf(10.0 / 9.0)
 }
@@ -25,12 +33,14 @@ pub(crate) fn is_line_exponent(n: f64) -> bool {
 /// Share g = ((L - L_s)/L)^(8/9) of a contact's stiffness that the undamaged length keeps (Eq. 23); 1 where L_s = 0,
 /// to the bit.
 #[inline]
+#[doc(hidden)]
 pub fn remaining_share(length: f64, damaged: f64) -> f64 {
     let share = ((length - damaged) / length).max(0.0);
     if share == 1.0 { 1.0 } else { eight_ninths(share) }
 }
 
 /// What damage leaves of a contact at one instant: the share g and the depth h of the floor.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactReduction {
     /// g in [0, 1].
@@ -42,6 +52,7 @@ pub struct ContactReduction {
 }
 
 /// Load-deflection law of one raceway.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadDeflection {
     /// K of the healthy contact, N/m^n.

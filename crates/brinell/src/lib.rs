@@ -54,6 +54,35 @@
 //! A scenario built or changed in code is checked by [`Scenario::problems`]. Photos, drawings and scans of damage are
 //! files: the crate `brinell-damage` puts their geometry into a scenario.
 //!
+//! # A law of your own
+//!
+//! [`simulate_custom`] takes a normal contact law ([`contact::ContactLaw`]: the elastic energy of a contact and its derivatives, healthy and damaged) and further forces
+//! ([`Force`]) on rings, cages and rolling elements. Statics, the energy audit and the solver's longest step follow from the law.
+//!
+//! ```
+//! use brinell::{Bodies, Custom, Force, Forces, Scenario, contact::Side};
+//! use std::sync::Arc;
+//!
+//! /// A magnet that pulls the outer ring up.
+//! #[derive(Debug)]
+//! struct Magnet {
+//!     newtons: f64,
+//! }
+//!
+//! impl Force for Magnet {
+//!     fn add(&self, t: f64, _: &Bodies<'_>, forces: &mut Forces<'_>) {
+//!         forces.on_ring(Side::Outer, [0.0, self.newtons * (600.0 * t).sin()]);
+//!     }
+//! }
+//!
+//! # let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[simulation]\nduration_s = 0.05";
+//! let scenario = Scenario::from_toml(text)?;
+//! let custom = Custom { forces: vec![Arc::new(Magnet { newtons: 50.0 })], ..Custom::default() };
+//! let result = brinell::simulate_custom(&scenario, custom, &mut ())?;
+//! assert!(result.outcome.energy.left_open().is_none());
+//! # Ok::<(), brinell::Error>(())
+//! ```
+//!
 //! # Channels
 //!
 //! `simulation.record` of the scenario selects channels by patterns ([`channel`] says which there are). [`record`]
@@ -125,7 +154,6 @@ pub mod bearing;
 #[doc(hidden)]
 pub mod cage;
 pub mod channel;
-#[doc(hidden)]
 pub mod contact;
 #[doc(hidden)]
 pub mod defect;
@@ -172,9 +200,9 @@ pub use brinell_signal as signal;
 #[doc(no_inline)]
 pub use brinell_signal::{analysis, parallel as many, random};
 pub use error::Error;
-pub use model::ModelError;
+pub use model::{Bodies, Body, Custom, Force, Forces, ModelError};
 #[doc(no_inline)]
-pub use result::{RunResult, record, simulate, simulate_with};
+pub use result::{RunResult, record, simulate, simulate_custom, simulate_with};
 #[doc(no_inline)]
 pub use scenario::Scenario;
 #[doc(no_inline)]

@@ -388,6 +388,25 @@ impl Healthy<'_> {
         }
     }
 
+    /// Deformation at which it stores an energy (J, above 0), m.
+    pub(crate) fn deformation_of(&self, energy: f64) -> f64 {
+        let n = self.law.exponent.value();
+        let even = ((n + 1.0) * energy / self.law.stiffness).powf(1.0 / (n + 1.0));
+        if self.slices.is_none() {
+            return even;
+        }
+        // A profile takes more, and the even contact bounds it from below.
+        let (mut low, mut high) = (even, 2.0 * even);
+        while self.energy(high) < energy {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.energy(middle) < energy { low = middle } else { high = middle }
+        }
+        high
+    }
+
     /// Length that touches at a deformation, m: of a ball the axis of its ellipse across the groove.
     pub(crate) fn touching(&self, delta: f64) -> f64 {
         match (self.law.axis_across(delta), self.slices) {

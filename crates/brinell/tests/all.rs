@@ -8,6 +8,7 @@ mod balls;
 mod common;
 mod conservation;
 mod convergence;
+mod custom;
 mod damage;
 mod document;
 mod doubts;

@@ -156,7 +156,7 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
         for side in SIDES {
             let contacts = &motion.ws.contacts[side as usize];
             let delta = contacts.deformation[slot];
-            let held = |dt: f64| model.contact_law(side).energy(model.defects_of(slot, side), &angles(dt), delta);
+            let held = |dt: f64| model.energy_at_rest((slot, side), &angles(dt), delta);
             rate += (held(h) - held(-h)) / (2.0 * h);
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::common::{rectangle_with, warnings};
 use brinell::plausibility::doubtful;
-use brinell::scenario::{DefectTable, Scenario, TableData};
+use brinell::scenario::{DefectTable, Scenario, TableData, TableValues};
 
 /// The base under a half-space with a table whose contact sinks by up to 60 % within `half` mm of its middle and is known to `most` um,
 /// out to `end` mm.
@@ -17,7 +17,8 @@ fn with_table([half, end, most]: [f64; 3], settings: &[(&str, &str)]) -> Scenari
     let inside = |s: f64| (1.0 - (s / half).powi(2)).max(0.0).powi(2);
     let delta_eff_um =
         s_mm.iter().flat_map(|s| delta_um.iter().map(|delta| delta * (1.0 - 0.6 * inside(*s)))).collect();
-    loaded.scenario.defects[0].table = Some(DefectTable::Read(TableData { s_mm, delta_um, delta_eff_um }));
+    loaded.scenario.defects[0].table =
+        Some(DefectTable::Read(TableData { s_mm, delta_um, values: TableValues::DeltaEffUm(delta_eff_um) }));
     assert_eq!(loaded.scenario.problems(), []);
     loaded.scenario
 }
@@ -99,7 +100,8 @@ fn prop_an_element_beneath_the_floor_of_its_damage_is_said() {
         let delta_um: Vec<f64> = (0..=6).map(|k| 0.05 * f64::from(k)).collect();
         let share = |s: f64| if s.abs() < 1.0 { 0.5 } else { 1.0 };
         let delta_eff_um = s_mm.iter().flat_map(|s| delta_um.iter().map(move |delta| share(*s) * delta)).collect();
-        s.defects[0].table = Some(DefectTable::Read(TableData { s_mm, delta_um, delta_eff_um }));
+        s.defects[0].table =
+            Some(DefectTable::Read(TableData { s_mm, delta_um, values: TableValues::DeltaEffUm(delta_eff_um) }));
     };
     assert_eq!(doubts(&[("defects.0.depth_um", "20")], table), [""; 0]);
     let said = doubts(&[("defects.0.depth_um", "0.1")], table);

@@ -1,29 +1,7 @@
-//! Angles of a roller, and the side on which it meets damage.
+//! Angles of a roller that decide where it meets damage.
 
 use crate::lanes::functions::ROUNDER;
 use std::f64::consts::{PI, TAU};
-
-/// Side of a roller: the raceway that it meets there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// Inner raceway.
-    Inner,
-    /// Outer raceway.
-    Outer,
-}
-
-impl Side {
-    /// In words: `inner` or `outer`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Side::Inner => "inner",
-            Side::Outer => "outer",
-        }
-    }
-}
-
-/// Both sides, in the order of arrays indexed by side.
-pub const SIDES: [Side; 2] = [Side::Inner, Side::Outer];
 
 /// An angle mapped to [-pi, pi).
 #[inline]

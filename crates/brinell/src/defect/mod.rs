@@ -20,7 +20,8 @@ pub mod section;
 mod shape;
 pub mod simplify;
 
-pub use angles::{Angles, SIDES, Side, wrap};
+pub use crate::contact::{SIDES, Side};
+pub use angles::{Angles, wrap};
 pub use envelope::envelope;
 pub use grid::{Covered, Grid};
 pub use mean_depths::MeanDepths;

@@ -1,10 +1,11 @@
 //! Defects where they are on their surfaces: which contacts they meet, and at which angle.
 
-use super::angles::{Angles, SIDES, Side, wrap};
+use super::angles::{Angles, wrap};
 use super::envelope::envelope;
 use super::piecewise::PiecewisePolynomial;
 use super::shape::Shape;
 use crate::contact::{ContactReduction, remaining_share};
+use crate::contact::{SIDES, Side};
 use crate::effective::{Table, Tilted};
 use crate::scenario::{self, Element, Law, RollerPath, Surface};
 use std::f64::consts::PI;
@@ -136,14 +137,7 @@ impl Defect {
         self.tilted[side as usize].as_ref()
     }
 
-    /// Lets damage act by this table at every contact that the defect meets.
-    pub(crate) fn use_table(&mut self, table: Arc<Table>) {
-        for side in SIDES {
-            self.use_table_at(side, table.clone());
-        }
-    }
-
-    /// The same at its contacts on one side alone.
+    /// Lets damage act by this table at its contacts on one side.
     pub(crate) fn use_table_at(&mut self, side: Side, table: Arc<Table>) {
         let k = side as usize;
         if self.meets_side(side) {

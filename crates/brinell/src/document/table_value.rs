@@ -6,12 +6,13 @@ use super::source::{Node, Value};
 use super::spec::{Spec, key};
 use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
-use crate::scenario::{DefectTable, TableData};
+use crate::scenario::{DefectTable, TableData, TableValues};
 
 const S: Spec = key("s_mm", "s, rising");
 const DELTA: Spec = key("delta_um", "delta, rising");
 const DELTA_EFF: Spec = key("delta_eff_um", "delta_eff, at every delta_um of the first s_mm, then of the next");
-const ALLOWED: &str = "\"FILE\", { s_mm = [..], delta_um = [..], delta_eff_um = [..] }";
+const ENERGY: Spec = key("energy_j", "E, in place of delta_eff");
+const ALLOWED: &str = "\"FILE\", { s_mm = [..], delta_um = [..], delta_eff_um = [..] }, the same with energy_j = [..] in place of delta_eff_um";
 
 impl ValueType for DefectTable {
     fn blank() -> Self {
@@ -34,11 +35,14 @@ impl ValueType for DefectTable {
             _ => return Err(wrong_type::<Self>(node, spec)),
         };
         let names: Vec<&str> = table.keys().map(String::as_str).collect();
-        if names != [DELTA_EFF.name, DELTA.name, S.name] {
+        let has = |value: &Spec| names.len() == 3 && [&S, &DELTA, value].iter().all(|spec| names.contains(&spec.name));
+        let Some(value) = [&DELTA_EFF, &ENERGY].into_iter().find(|value| has(value)) else {
             return Err(Misfit::new(format!("keys {} make no table", names.join(", ")), ALLOWED));
-        }
+        };
         let list = |spec: &Spec| read_under::<Vec<f64>>(&table[spec.name].node, spec);
-        let data = TableData { s_mm: list(&S)?, delta_um: list(&DELTA)?, delta_eff_um: list(&DELTA_EFF)? };
+        let values = TableValues::named(value.name, list(value)?);
+        let Some(values) = values else { return Err(wrong_type::<Self>(node, spec)) };
+        let data = TableData { s_mm: list(&S)?, delta_um: list(&DELTA)?, values };
         data.check().map_err(|fault| Misfit::new(fault.message, fault.allowed))?;
         Ok(Self::Read(data))
     }
@@ -46,22 +50,23 @@ impl ValueType for DefectTable {
     fn write(&self) -> String {
         match self {
             Self::File(file) => quote(file),
-            Self::Read(TableData { s_mm, delta_um, delta_eff_um }) => format!(
+            Self::Read(TableData { s_mm, delta_um, values }) => format!(
                 "{{ {} = {}, {} = {}, {} = {} }}",
                 S.name,
                 s_mm.write(),
                 DELTA.name,
                 delta_um.write(),
-                DELTA_EFF.name,
-                delta_eff_um.write()
+                values.name(),
+                values.list().to_vec().write()
             ),
         }
     }
 
     fn schema(_: &Spec) -> Json {
         json!({ "oneOf": [
-            { "type": "string", "description": "CSV with the columns s_mm, delta_um, delta_eff_um, from the scenario's folder" },
+            { "type": "string", "description": "CSV with the columns s_mm, delta_um, delta_eff_um or energy_j, from the scenario's folder" },
             object(&[&S, &DELTA, &DELTA_EFF], &[&S, &DELTA, &DELTA_EFF].map(<Vec<f64>>::schema)),
+            object(&[&S, &DELTA, &ENERGY], &[&S, &DELTA, &ENERGY].map(<Vec<f64>>::schema)),
         ] })
     }
 }

@@ -98,7 +98,7 @@ mod tests {
         let data = TableData::from_csv_text(text).unwrap();
         let metres = |values: &[f64], unit: f64| values.iter().map(|x| x * unit).collect::<Vec<_>>();
         let (s, delta) = (metres(&data.s_mm, 1e-3), metres(&data.delta_um, 1e-6));
-        Table::from_grid(&s, &delta, &metres(&data.delta_eff_um, 1e-6)).unwrap()
+        Table::from_grid(&s, &delta, &metres(data.values.list(), 1e-6)).unwrap()
     }
 
     #[test]

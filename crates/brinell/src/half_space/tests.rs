@@ -286,7 +286,7 @@ fn prop_a_written_table_read_back_gives_the_same_force() {
         let data = scenario::TableData::from_csv_text(&text).unwrap();
         let metres = |values: &[f64], unit: f64| values.iter().map(|x| x * unit).collect::<Vec<_>>();
         let (s, delta) = (metres(&data.s_mm, 1e-3), metres(&data.delta_um, 1e-6));
-        let read = Table::from_grid(&s, &delta, &metres(&data.delta_eff_um, 1e-6)).unwrap();
+        let read = Table::from_grid(&s, &delta, &metres(data.values.list(), 1e-6)).unwrap();
         let [from, to] = built.table.range_s();
         for k in 0..400 {
             let s = from + (to - from) * (f64::from(k) + 0.5) / 400.0;

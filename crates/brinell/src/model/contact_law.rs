@@ -1,14 +1,16 @@
-//! The law of a contact without tilt: what it carries and stores at rest, healthy or on damage, by `half-space` (section 19) or by the
-//! paper's `ecl` (section 3).
+//! The law of a contact without tilt: what it carries and stores at rest, healthy or on damage, by `half-space` (section 19), by the
+//! paper's `ecl` (section 3), or by the user's own ([`Model::at_rest`]).
 
-use super::Model;
+use super::{Layout, Model};
+use crate::contact::{ContactLaw, Elastic, Place};
 use crate::defect::{Angles, Defect, Defects, Met, Side, ecl};
 use crate::scenario::Law;
 use crate::slices::{Approach, Healthy, Slices};
+use std::f64::consts::PI;
 
-/// The law of the contacts on one side.
+/// The law of the contacts on one side that the scenario names.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactLaw<'a> {
+pub struct ScenarioLaw<'a> {
     law: Law,
     healthy: Healthy<'a>,
 }
@@ -40,12 +42,35 @@ impl Resting {
     }
 }
 
-impl ContactLaw<'_> {
-    /// Whether damage pushes along the surface where it changes a contact's energy; under `ecl` it does not.
-    pub fn pushes(&self) -> bool {
-        self.law == Law::HalfSpace
+impl From<Elastic> for Resting {
+    fn from(Elastic { force, tangent, by_raceway, by_element, .. }: Elastic) -> Self {
+        Self { force, tangent, push: by_raceway + by_element, push_element: by_element }
     }
+}
 
+/// A contact by a law of the user's own.
+pub(super) fn by_law(
+    law: &dyn ContactLaw,
+    (slot, side): (usize, Side),
+    layout: &Layout,
+    angles: &Angles,
+    delta: f64,
+) -> Elastic {
+    let (ring, half_turn) = match side {
+        Side::Inner => (angles.ring, PI),
+        Side::Outer => (0.0, 0.0),
+    };
+    let place = Place {
+        side,
+        row: layout.row(slot),
+        element: layout.roller(slot),
+        on_raceway: angles.orbit - ring,
+        on_element: angles.orbit + half_turn - angles.spin,
+    };
+    law.at(&place, delta)
+}
+
+impl ScenarioLaw<'_> {
     /// A contact that may be on any of `defects` at a deformation, m.
     #[inline]
     pub fn at(&self, defects: Defects, angles: &Angles, delta: f64) -> Resting {
@@ -102,14 +127,39 @@ impl ContactLaw<'_> {
 }
 
 impl Model {
-    /// The law of the contacts on `side`.
+    /// The law of the contacts on `side` that the scenario names.
     #[inline]
-    pub fn contact_law(&self, side: Side) -> ContactLaw<'_> {
-        ContactLaw { law: self.law, healthy: self.healthy(side) }
+    pub fn scenario_law(&self, side: Side) -> ScenarioLaw<'_> {
+        ScenarioLaw { law: self.law, healthy: self.healthy(side) }
+    }
+
+    /// Whether what changes a contact's energy along the surface pushes along it; damage under `ecl` does not.
+    pub fn has_pushing_law(&self) -> bool {
+        self.law == Law::HalfSpace || self.custom.contact.is_some()
+    }
+
+    /// The contact of a slot at a deformation, m.
+    #[inline]
+    pub fn at_rest(&self, at: (usize, Side), angles: &Angles, delta: f64) -> Resting {
+        match &self.custom.contact {
+            Some(law) => by_law(&**law, at, &self.layout, angles, delta).into(),
+            None => self.scenario_law(at.1).at(self.defects_of(at.0, at.1), angles, delta),
+        }
+    }
+
+    /// Its elastic energy, J.
+    pub fn energy_at_rest(&self, at: (usize, Side), angles: &Angles, delta: f64) -> f64 {
+        match &self.custom.contact {
+            Some(law) => by_law(&**law, at, &self.layout, angles, delta).energy,
+            None => self.scenario_law(at.1).energy(self.defects_of(at.0, at.1), angles, delta),
+        }
     }
 
     /// Deformation at the roller's middle of a healthy contact under `force` (N), m.
     pub fn deflection(&self, side: Side, force: f64) -> f64 {
+        if let Some(law) = &self.custom.contact {
+            return law.deflection(side, force);
+        }
         let even = self.contact(side).deflection(force);
         match self.profiled() {
             Some(slices) => slices.deflection(self.contact(side), force, even),
@@ -120,6 +170,9 @@ impl Model {
     /// dQ/d(delta) of a healthy contact under `force` (N), N/m.
     pub fn stiffness_at(&self, side: Side, force: f64) -> f64 {
         let (law, delta) = (self.contact(side), self.deflection(side, force));
+        if let Some(own) = &self.custom.contact {
+            return own.at(&Place::of(side), delta).tangent;
+        }
         match self.profiled() {
             Some(slices) => slices.carry(law, &Approach::pressed(delta)).stiffness[0],
             None => law.tangent(delta),
@@ -129,12 +182,12 @@ impl Model {
     /// Elastic force (N) of a contact deformed by `delta` (m) at the roller's middle, at the angle `u` (rad) from the
     /// centre of `defect`, which need not be of this model.
     pub fn force_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> f64 {
-        self.contact_law(side).at(Defects::one(defect, side), &defect.met_at(side, u), delta).force
+        self.scenario_law(side).at(Defects::one(defect, side), &defect.met_at(side, u), delta).force
     }
 
     /// Length of the same contact that touches, m.
     pub fn length_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> f64 {
-        self.contact_law(side).touching(Defects::one(defect, side), &defect.met_at(side, u), delta)
+        self.scenario_law(side).touching(Defects::one(defect, side), &defect.met_at(side, u), delta)
     }
 
     /// delta_eff (m) under `half-space` and the elastic force (N) of a contact deformed by `delta` (m), at the angle `u` (rad) from the
@@ -142,7 +195,7 @@ impl Model {
     pub fn effective_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> [f64; 2] {
         let (surface, angles) = (Defects::beside(&self.defects, defect, side), defect.met_at(side, u));
         let effective = surface.effective(&angles, delta, None).map_or(delta, |met| met.delta);
-        [effective, self.contact_law(side).at(surface, &angles, delta).force]
+        [effective, self.scenario_law(side).at(surface, &angles, delta).force]
     }
 
     /// The slices, where a profile keeps some of them back.

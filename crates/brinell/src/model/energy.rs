@@ -8,7 +8,7 @@ use super::full::exact::stretch;
 use super::{Layout, Model, Workspace};
 use crate::defect::{Angles, SIDES, Side};
 use crate::lanes::{Column, WIDTH};
-use crate::scenario::{Law, ModelKind};
+use crate::scenario::ModelKind;
 use crate::slices::Approach;
 
 /// Energy held, J.
@@ -105,7 +105,7 @@ impl Energy {
 fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles) -> f64 {
     match &model.slices {
         Some(slices) if model.layout.tilts => model.carried(slices, (slot, side), angles, at).energy,
-        _ => model.contact_law(side).energy(model.defects_of(slot, side), angles, at.deformation),
+        _ => model.energy_at_rest((slot, side), angles, at.deformation),
     }
 }
 
@@ -135,7 +135,7 @@ impl ContactState {
 
     /// Takes over the evaluation in `ws` at (t, y).
     pub(crate) fn store(&mut self, model: &Model, t: f64, y: &[f64], ws: &Workspace) {
-        if model.defects.is_empty() || model.law == Law::HalfSpace {
+        if model.defects.is_empty() || model.has_pushing_law() {
             return;
         }
         let l = &model.layout;
@@ -174,7 +174,7 @@ impl ContactState {
 ///
 /// Under `half-space` damage pushes back: bodies and drive do that work, and none is parametric.
 pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState) -> f64 {
-    if model.law == Law::HalfSpace {
+    if model.has_pushing_law() {
         return 0.0;
     }
     let mut work = 0.0;
@@ -205,8 +205,7 @@ fn work_at(model: &Model, (slot, side): (usize, Side), (before, after): (&Contac
         let deformation = state.deformation[k][slot];
         match model.kind {
             ModelKind::Full | ModelKind::Tilting => {
-                let defects = model.defects_of(slot, side);
-                let at = |angles: &Angles| model.contact_law(side).energy(defects, angles, deformation);
+                let at = |angles: &Angles| model.energy_at_rest((slot, side), angles, deformation);
                 at(&to) - at(&from)
             }
             // One contact in series for both sides: counted at the inner one where that is on damage.

@@ -1,11 +1,11 @@
 //! A scenario as the model it stands for: from the file's names and units to SI.
 
 use super::stable_steps::StableSteps;
-use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, Support, Tilt};
+use super::{BroadPhase, Custom, Geometry, Inertia, Kernel, Layout, Model, Support, Tilt};
 use crate::cage::{Guide, LandLaw, OIL_FORCE, OiledWall, Pocket};
 use crate::contact::ball;
 use crate::contact::film::SqueezeFilm;
-use crate::contact::{Damping, LoadDeflection};
+use crate::contact::{Damping, LoadDeflection, Place};
 use crate::defect::{Defect, SIDES, Side, relative_radius};
 use crate::effective::Table;
 use crate::elementary::Exponent;
@@ -16,9 +16,9 @@ use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
     Bearing, Cage, ContactDamping, DefectTable, Element, GeometryLaw, Guidance, GuidanceFilm, Housing, Law, Lubricant,
-    ModelKind, Pockets, RacewayFilm, Scenario, Walls,
+    ModelKind, Pockets, RacewayFilm, Scenario, TableData, TableValues, Walls,
 };
-use crate::slices::Slices;
+use crate::slices::{Healthy, Slices};
 use crate::waviness::Waviness;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -103,7 +103,14 @@ impl Model {
             broad_phase: SIDES.map(|side| BroadPhase::new(&layout, &defects, side)),
             row_lanes: row_lanes(&layout),
             pocket_angle: pocket_angles(b, &layout),
-            stable_steps: StableSteps::new([&inner_contact, &outer_contact], inertia.roller),
+            stable_steps: StableSteps::new(
+                |side, force| {
+                    let law = [&inner_contact, &outer_contact][side as usize];
+                    let tangent = law.tangent_at(force);
+                    [tangent, law.damping.of(tangent, law.deflection(force))]
+                },
+                inertia.roller,
+            ),
             inner_contact,
             outer_contact,
             series_contact,
@@ -142,13 +149,51 @@ impl Model {
             inertia,
             defects,
             law: s.contact.law,
+            custom: Custom::default(),
         })
+    }
+
+    /// The model of a scenario with what the user's program adds to it.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and where the equations have no place for it.
+    pub fn with_custom(s: &Scenario, custom: Custom) -> Result<Self, ModelError> {
+        let mut model = if custom.contact.is_some() { Self::planned(s) } else { Self::new(s) }?;
+        let refuse = |key: &str, value: String, requirement| Err(ModelError { key: key.into(), value, requirement });
+        if model.kind == ModelKind::Lumped {
+            return refuse("simulation.model", "lumped".into(), "full or tilting, for further forces and contact laws");
+        }
+        if let Some(law) = &custom.contact {
+            if !s.has_even_contacts() {
+                return refuse(
+                    "bearing.profile",
+                    format!("{:?}", s.bearing.profile),
+                    "straight, and simulation.model full: a contact law of one's own knows no slices",
+                );
+            }
+            if !model.exact {
+                return refuse(
+                    "simulation.geometry",
+                    "centred".into(),
+                    "exact, where what a contact law pushes has a reaction on every body",
+                );
+            }
+            let damping = SIDES.map(|side| model.contact(side).damping);
+            let spring = |side: Side, force: f64| {
+                let delta = law.deflection(side, force);
+                let tangent = law.at(&Place::of(side), delta).tangent;
+                [tangent, damping[side as usize].of(tangent, delta)]
+            };
+            model.stable_steps = StableSteps::new(spring, model.inertia.roller);
+        }
+        model.custom = custom;
+        Ok(model)
     }
 
     /// Gives damage its tables (section 19), which say where its contacts are no longer healthy. `false`: one is not at hand, and
     /// `may_make` forbids to make it.
     fn add_tables(&mut self, s: &Scenario, may_make: bool) -> Result<bool, ModelError> {
-        tables(s, &mut self.defects)?;
+        self.use_given_tables(s)?;
         let force = heaviest(s, &self.geometry, &self.inertia);
         let contacts = [&self.inner_contact, &self.outer_contact];
         let deflection = |side: Side| {
@@ -171,6 +216,33 @@ impl Model {
         }
         self.broad_phase = SIDES.map(|side| BroadPhase::new(&self.layout, &self.defects, side));
         Ok(true)
+    }
+}
+
+impl Model {
+    /// Gives damage the tables of files.
+    fn use_given_tables(&mut self, s: &Scenario) -> Result<(), ModelError> {
+        for (k, given) in s.defects.iter().enumerate() {
+            let Some(DefectTable::Read(data)) = &given.table else { continue };
+            let fault =
+                |value: String, requirement| ModelError { key: format!("defects.{k}.table"), value, requirement };
+            for side in SIDES {
+                let values = match &data.values {
+                    TableValues::DeltaEffUm(list) => list.clone(),
+                    TableValues::EnergyJ(list) => effective(&self.healthy(side), &data.delta_um, list),
+                };
+                let data = TableData { values: TableValues::DeltaEffUm(values), ..data.clone() };
+                if self.defects[k].meets_side(side) {
+                    data.check().map_err(|error| fault(error.to_string(), "energies in J, at the first and the last s_mm those of the healthy contact: K delta^(n+1)/(n+1), all in SI units"))?;
+                }
+                let in_m = |list: &[f64], unit: f64| -> Vec<f64> { list.iter().map(|x| unit * x).collect() };
+                let (at, by) = (in_m(&data.s_mm, 1e-3), in_m(&data.delta_um, 1e-6));
+                let table = Table::from_grid(&at, &by, &in_m(data.values.list(), 1e-6))
+                    .map_err(|error| fault(error.to_string(), "a full grid whose s and delta rise"))?;
+                self.defects[k].use_table_at(side, Arc::new(table));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -284,23 +356,22 @@ fn heaviest(s: &Scenario, g: &Geometry, m: &Inertia) -> f64 {
     (s.bearing.element.stribeck() * load / count).max(m.roller * g.pitch_radius * orbit * orbit)
 }
 
-/// Gives damage the tables of files, as they are.
-fn tables(s: &Scenario, defects: &mut [Defect]) -> Result<(), ModelError> {
-    for (k, defect) in s.defects.iter().enumerate() {
-        let fault = |value: String, requirement| ModelError { key: format!("defects.{k}.table"), value, requirement };
-        match &defect.table {
-            Some(DefectTable::Read(data)) => {
-                let in_m = |list: &[f64], unit: f64| -> Vec<f64> { list.iter().map(|x| unit * x).collect() };
-                let [s, delta, eff] = [(&data.s_mm, 1e-3), (&data.delta_um, 1e-6), (&data.delta_eff_um, 1e-6)]
-                    .map(|(list, unit)| in_m(list, unit));
-                let table = Table::from_grid(&s, &delta, &eff)
-                    .map_err(|error| fault(error.to_string(), "a full grid whose s and delta rise"))?;
-                defects[k].use_table(Arc::new(table));
-            }
-            Some(DefectTable::File(_)) | None => {}
+/// delta_eff (um) of a table of energies on a healthy contact; where nothing touches, straight on down from the first two nodes that do.
+fn effective(healthy: &Healthy, delta_um: &[f64], energies: &[f64]) -> Vec<f64> {
+    let of = |energy: f64| if energy > 0.0 { 1e6 * healthy.deformation_of(energy) } else { 0.0 };
+    let rows = energies.chunks(delta_um.len()).flat_map(|row| {
+        let mut row: Vec<f64> = row.iter().map(|energy| of(*energy)).collect();
+        let from = row.iter().position(|value| *value > 0.0).unwrap_or(0);
+        let slope = match row[from..] {
+            [first, second, ..] => (second - first) / (delta_um[from + 1] - delta_um[from]),
+            _ => 1.0,
+        };
+        for k in 0..from {
+            row[k] = (row[from] - slope * (delta_um[from] - delta_um[k])).min(0.0);
         }
-    }
-    Ok(())
+        row
+    });
+    rows.collect()
 }
 
 /// That tables of files are in their units: none is meant for damage or a heaviest deformation ten times as large.

@@ -5,6 +5,7 @@
 
 mod broad_phase;
 mod contact_law;
+mod custom;
 pub(crate) mod energy;
 mod from_scenario;
 mod full;
@@ -23,7 +24,8 @@ mod workspace;
 
 pub use crate::kernel::Kernel;
 pub use broad_phase::BroadPhase;
-pub use contact_law::{ContactLaw, Resting};
+pub use contact_law::{Resting, ScenarioLaw};
+pub use custom::{Bodies, Body, Custom, External, Force, Forces};
 pub use energy::Energy;
 pub use from_scenario::{ModelError, series_stiffness};
 pub use geometry::{Geometry, Inertia, Support};

@@ -38,6 +38,7 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
             add([m.cage * (a[at] - model.gravity[0]), m.cage * (a[at + 1] - model.gravity[1])]);
         }
     }
+    add(ws.external.force.map(|f| -f));
     let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
     let mut forces = sum.relative(pressed);
     // Where rings tilt their forces act at the rows' middles: a torque of second order in small slopes has no body to turn.
@@ -112,8 +113,8 @@ fn turning(model: &Model, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), (ws, pres
         let (torque, size) = moment(&q[at..], [0, 1].map(|k: usize| m.cage * (a[at + k] - model.gravity[k])));
         add(torque, size);
     }
-    // Of the drive and of the housing.
-    ws.torques.into_iter().for_each(|torque| add(-torque, torque.abs()));
+    // Of the drive and of the housing, and of the user's own forces.
+    ws.torques.into_iter().chain([ws.external.torque]).for_each(|torque| add(-torque, torque.abs()));
     let scale = scale + pressed * model.geometry.pitch_radius;
     if scale > 0.0 { left.abs() / scale } else { 0.0 }
 }
@@ -155,6 +156,7 @@ fn moments(model: &Model, tilt: &Tilt, t: f64, (q, v, a): (&[f64], &[f64], &[f64
         let at = l.cage(row);
         add([0, 1].map(|k| tilt.rows[row] * m.cage * (a[at + k] - model.gravity[k])));
     }
+    add(ws.external.moment.map(|m| -m));
     let carried = ws.contacts.iter().flat_map(|c| c.moment.iter());
     sum.relative(carried.map(|t| t.abs()).sum())
 }

@@ -1,6 +1,7 @@
 //! The parameters of a model, and what follows from them alone.
 
 use super::broad_phase::BroadPhase;
+use super::custom::Custom;
 use super::geometry::{Geometry, Inertia, Support};
 use super::layout::Layout;
 use super::stable_steps::StableSteps;
@@ -110,6 +111,8 @@ pub struct Model {
     pub tilt: Option<Tilt>,
     /// Start.
     pub start: Start,
+    /// What the user's program adds.
+    pub custom: Custom,
 }
 
 impl Model {
@@ -140,9 +143,11 @@ impl Model {
             && self.law == Law::HalfSpace
     }
 
-    /// Whether anything on a surface pushes rollers along it: damage by its table, or waves.
+    /// Whether anything on a surface pushes rollers along it: damage by its table, waves, or a law of the user's own.
     pub(crate) fn pushes(&self) -> bool {
-        self.waviness.is_some() || (self.law == Law::HalfSpace && !self.defects.is_empty())
+        self.waviness.is_some()
+            || self.custom.contact.is_some()
+            || (self.law == Law::HalfSpace && !self.defects.is_empty())
     }
 
     /// Defects that meet the contact of `slot` on `side`.

@@ -5,7 +5,7 @@ use std::ops::{AddAssign, Mul};
 /// Flows of energy, W; integrated over time, J. Dissipations count positive.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Power {
-    /// Work of the load on its ring.
+    /// Work of the load on its ring, and of further forces of the user's own.
     pub load: f64,
     /// Work of the drive that turns the inner ring.
     pub drive: f64,

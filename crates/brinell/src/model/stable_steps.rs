@@ -1,6 +1,6 @@
 //! Longest steps in which the explicit solver damps a roller on its contacts, by the largest contact force.
 
-use crate::contact::LoadDeflection;
+use crate::contact::{SIDES, Side};
 use crate::solver::DAMPED_CONTACT;
 
 /// Binary orders of the contact forces that [`StableSteps`] lists: 1 mN to 16 MN.
@@ -20,11 +20,11 @@ pub(super) struct StableSteps {
 }
 
 impl StableSteps {
-    /// Of a roller of this mass, kg, on the inner and the outer contact.
-    pub(super) fn new(contacts: [&LoadDeflection; 2], mass: f64) -> Self {
+    /// Of a roller of this mass, kg; `spring` gives the tangent stiffness (N/m) and the damping (N s/m) of a contact under an elastic force, N.
+    pub(super) fn new(spring: impl Fn(Side, f64) -> [f64; 2], mass: f64) -> Self {
         let of_one: [f64; ORDERS] = std::array::from_fn(|k| {
             let force = f64::from(LEAST + k as i32).exp2();
-            let [inner, outer] = contacts.map(|law| spring(law, force));
+            let [inner, outer] = SIDES.map(|side| spring(side, force));
             // Between the raceways, or on one of them.
             let springs = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer];
             springs.map(|spring| decaying_step(spring, mass)).into_iter().fold(f64::INFINITY, f64::min)
@@ -45,12 +45,6 @@ impl StableSteps {
         let k = (at as usize).min(ORDERS - 2);
         self.steps[k] + (at - k as f64) * (self.steps[k + 1] - self.steps[k])
     }
-}
-
-/// Tangent stiffness (N/m) and damping (N s/m) of a healthy contact under an elastic force, N.
-fn spring(law: &LoadDeflection, force: f64) -> [f64; 2] {
-    let tangent = law.tangent_at(force);
-    [tangent, law.damping.of(tangent, law.deflection(force))]
 }
 
 /// Longest step in which m x'' + c x' + k x = 0 decays, s.

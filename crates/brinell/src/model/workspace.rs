@@ -1,6 +1,6 @@
 //! What one evaluation of the equations of motion leaves behind: forces of every contact and the flows of energy.
 
-use super::{Model, Power};
+use super::{External, Model, Power};
 use crate::cage::GuideForce;
 use crate::kernel::Kernel;
 use crate::lanes::{Column, Lanes, WIDTH};
@@ -161,6 +161,8 @@ pub struct Workspace {
     pub(super) guidance: Vec<GuideForce>,
     /// Flows of energy at this instant, W.
     pub power: Power,
+    /// Further forces of the user's own.
+    pub(super) external: External,
 }
 
 impl Workspace {
@@ -192,6 +194,7 @@ impl Workspace {
             max_elastic: [[0.0; WIDTH]; 2],
             guidance: vec![GuideForce::default(); model.layout.rows],
             power: Power::default(),
+            external: External::default(),
         }
     }
 

@@ -19,4 +19,4 @@ pub use parts::Parts;
 pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
 pub use quantities::{UnknownName, by_name, check_name, listed, named, names, quantities};
-pub use run::{RunResult, finish, record, simulate, simulate_with};
+pub use run::{RunResult, finish, record, simulate, simulate_custom, simulate_with};

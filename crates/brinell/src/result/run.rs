@@ -3,6 +3,7 @@
 use crate::channel::Frame;
 use crate::document;
 use crate::error::Error;
+use crate::model::Custom;
 use crate::observe::{Findings, Watch};
 use crate::scenario::{Accuracy, Scenario};
 use crate::simulate::{End, Observer, Outcome, Signals, Simulation, SolverWork};
@@ -98,6 +99,15 @@ pub fn simulate(scenario: &Scenario) -> Result<RunResult, Error> {
 /// As [`simulate`], and [`Error::Stopped`]: there is no half-finished run among results.
 pub fn simulate_with(scenario: &Scenario, observer: &mut dyn Observer) -> Result<RunResult, Error> {
     let simulation = Simulation::new(scenario)?;
+    complete(finish(scenario.clone(), simulation, observer))
+}
+
+/// As [`simulate_with`], with a contact law and further forces of the user's own.
+///
+/// # Errors
+/// As [`simulate_with`] and [`Simulation::with_custom`].
+pub fn simulate_custom(scenario: &Scenario, custom: Custom, observer: &mut dyn Observer) -> Result<RunResult, Error> {
+    let simulation = Simulation::with_custom(scenario, custom)?;
     complete(finish(scenario.clone(), simulation, observer))
 }
 

@@ -13,7 +13,7 @@ pub(crate) use choices::words;
 pub use choices::*;
 pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
 pub use sensor::{PathMode, Range, Sensor};
-pub use table::{TableData, TableFault};
+pub use table::{TableData, TableFault, TableValues};
 
 /// One run, completely described.
 #[derive(Debug, Clone, PartialEq)]

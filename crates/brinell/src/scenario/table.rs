@@ -1,19 +1,51 @@
-//! A table of a damaged contact, delta_eff(s, delta), as it is exchanged between programs: CSV with the columns `s_mm`,
-//! `delta_um` and `delta_eff_um` on a full grid (section 19).
+//! A table of a damaged contact, delta_eff(s, delta) or E(s, delta), as it is exchanged between programs: CSV with the columns `s_mm`,
+//! `delta_um` and `delta_eff_um` or `energy_j` on a full grid (section 19).
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::fmt;
 
-/// delta_eff on a full grid of s and delta.
+/// What damage makes of a contact, on a full grid of s and delta.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableData {
     /// s, rising.
     pub s_mm: Vec<f64>,
     /// delta, rising.
     pub delta_um: Vec<f64>,
-    /// delta_eff, all of the first s, then of the next.
-    pub delta_eff_um: Vec<f64>,
+    /// All of the first s, then of the next.
+    pub values: TableValues,
+}
+
+/// Values of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TableValues {
+    /// delta_eff, um: the deformation at which the healthy contact stores as much.
+    DeltaEffUm(Vec<f64>),
+    /// E, J: the elastic energy of the contact.
+    EnergyJ(Vec<f64>),
+}
+
+impl TableValues {
+    /// Those of a column, where one is called so.
+    pub(crate) fn named(name: &str, values: Vec<f64>) -> Option<Self> {
+        let make = [Self::DeltaEffUm, Self::EnergyJ][VALUES.iter().position(|column| *column == name)?];
+        Some(make(values))
+    }
+
+    /// Name of their column.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::DeltaEffUm(_) => VALUES[0],
+            Self::EnergyJ(_) => VALUES[1],
+        }
+    }
+
+    /// The numbers.
+    pub fn list(&self) -> &[f64] {
+        match self {
+            Self::DeltaEffUm(list) | Self::EnergyJ(list) => list,
+        }
+    }
 }
 
 /// What is wrong with a table.
@@ -38,7 +70,9 @@ impl fmt::Display for TableFault {
 
 impl std::error::Error for TableFault {}
 
-const COLUMNS: [&str; 3] = ["s_mm", "delta_um", "delta_eff_um"];
+const AXES: [&str; 2] = ["s_mm", "delta_um"];
+/// The third column is one of these.
+const VALUES: [&str; 2] = ["delta_eff_um", "energy_j"];
 /// Nodes of a table at most: a scenario that has them written out still reads (`document/source.rs`).
 const MOST_NODES: usize = 400_000;
 /// Shares of delta by which delta_eff may differ at a table's ends: within it a table's nodes are known (section 19).
@@ -63,11 +97,13 @@ impl TableData {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
         let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let needed = "a line with the columns s_mm,delta_um,delta_eff_um comes first";
+        let needed = "a line with the columns s_mm,delta_um,delta_eff_um (or energy_j) comes first";
         let (number, head) = lines.next().ok_or_else(|| fault(None, "the file is empty", needed))?;
         let names: Vec<&str> = head.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        let values = *VALUES.iter().find(|column| names.contains(column)).unwrap_or(&VALUES[0]);
+        let columns = [AXES[0], AXES[1], values];
         let mut places = [0; 3];
-        for (place, column) in places.iter_mut().zip(COLUMNS) {
+        for (place, column) in places.iter_mut().zip(columns) {
             let found = names.iter().position(|name| *name == column);
             let missing = || match head.contains([';', '\t']) {
                 true => format!(
@@ -77,11 +113,14 @@ impl TableData {
             };
             *place = found.ok_or_else(|| fault(Some(number), missing(), needed))?;
         }
-        let rows: Vec<Row> = lines.map(|(number, line)| row(number, line, places)).collect::<Result<_, _>>()?;
+        let rows: Vec<Row> =
+            lines.map(|(number, line)| row(number, line, (places, columns))).collect::<Result<_, _>>()?;
         if rows.len() > MOST_NODES {
             return Err(fault(Some(number), format!("{} nodes", rows.len()), format!("at most {MOST_NODES} of them")));
         }
-        let table = on_grid(&rows)?;
+        let (s_mm, delta_um, list) = on_grid(&rows)?;
+        let values = if values == VALUES[1] { TableValues::EnergyJ(list) } else { TableValues::DeltaEffUm(list) };
+        let table = TableData { s_mm, delta_um, values };
         table.check()?;
         Ok(table)
     }
@@ -106,28 +145,33 @@ impl TableData {
             }
         }
         let wanted = self.s_mm.len().saturating_mul(self.delta_um.len());
-        if self.delta_eff_um.len() != wanted {
-            let message = format!("{} delta_eff_um", self.delta_eff_um.len());
+        let (name, list) = (self.values.name(), self.values.list());
+        if list.len() != wanted {
+            let message = format!("{} {name}", list.len());
             return Err(fault(None, message, format!("{wanted}, one for each s_mm and delta_um")));
         }
-        for (s, of_s) in self.s_mm.iter().zip(self.delta_eff_um.chunks(self.delta_um.len())) {
+        for (s, of_s) in self.s_mm.iter().zip(list.chunks(self.delta_um.len())) {
             if let Some(k) = of_s.windows(2).position(falls) {
                 let message = format!(
-                    "at s_mm = {s} delta_eff_um goes from {} to {} where delta_um goes from {} to {}",
+                    "at s_mm = {s} {name} goes from {} to {} where delta_um goes from {} to {}",
                     of_s[k],
                     of_s[k + 1],
                     self.delta_um[k],
                     self.delta_um[k + 1]
                 );
-                return Err(fault(None, message, "delta_eff_um that never falls where delta_um rises"));
+                return Err(fault(None, message, format!("{name} that never falls where delta_um rises")));
             }
         }
-        self.is_healthy_at_its_ends()
+        match &self.values {
+            TableValues::DeltaEffUm(list) => self.is_healthy_at_its_ends(list),
+            // Only beside the healthy contact: when a model is made.
+            TableValues::EnergyJ(_) => Ok(()),
+        }
     }
 
     /// Outside its s a contact is healthy: at both ends delta_eff is delta, or the force would jump there.
-    fn is_healthy_at_its_ends(&self) -> Result<(), TableFault> {
-        let rows = || self.s_mm.iter().zip(self.delta_eff_um.chunks(self.delta_um.len()));
+    fn is_healthy_at_its_ends(&self, list: &[f64]) -> Result<(), TableFault> {
+        let rows = || self.s_mm.iter().zip(list.chunks(self.delta_um.len()));
         for (s, of_s) in rows().take(1).chain(rows().next_back()) {
             // Nothing touches below 0, however far.
             let off = |(delta, effective): &(&f64, &f64)| {
@@ -151,11 +195,11 @@ impl TableData {
     }
 }
 
-fn row(number: usize, line: &str, places: [usize; 3]) -> Result<Row, TableFault> {
+fn row(number: usize, line: &str, (places, columns): ([usize; 3], [&str; 3])) -> Result<Row, TableFault> {
     let cells: Vec<&str> = line.split(',').collect();
     let mut values = [0.0; 3];
-    for ((value, place), column) in values.iter_mut().zip(places).zip(COLUMNS) {
-        let needed = "a finite number in each of s_mm, delta_um and delta_eff_um";
+    for ((value, place), column) in values.iter_mut().zip(places).zip(columns) {
+        let needed = format!("a finite number in each of {}, {} and {}", columns[0], columns[1], columns[2]);
         let Some(cell) = cells.get(place) else {
             return Err(fault(Some(number), format!("there is no {column}"), needed));
         };
@@ -168,7 +212,7 @@ fn row(number: usize, line: &str, places: [usize; 3]) -> Result<Row, TableFault>
 }
 
 /// The nodes in order; the grid is that of all s and all delta there are.
-fn on_grid(rows: &[Row]) -> Result<TableData, TableFault> {
+fn on_grid(rows: &[Row]) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>), TableFault> {
     let axis = |which: usize| {
         let mut all: Vec<f64> = rows.iter().map(|(_, values)| values[which]).collect();
         all.sort_by(f64::total_cmp);
@@ -195,8 +239,8 @@ fn on_grid(rows: &[Row]) -> Result<TableData, TableFault> {
     }
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let delta_eff_um = order.iter().map(|(_, values)| values[2]).collect();
-    Ok(TableData { s_mm, delta_um, delta_eff_um })
+    let list = order.iter().map(|(_, values)| values[2]).collect();
+    Ok((s_mm, delta_um, list))
 }
 
 #[cfg(test)]
@@ -210,7 +254,10 @@ mod tests {
         let table = TableData::from_csv_text(ordered).unwrap();
         assert_eq!(table.s_mm, [-1.0, 0.5, 1.0]);
         assert_eq!(table.delta_um, [0.0, 2.0]);
-        assert_eq!(table.delta_eff_um, [0.0, 2.0, -1.0, 0.8, 0.0, 2.0]);
+        assert_eq!(table.values, TableValues::DeltaEffUm(vec![0.0, 2.0, -1.0, 0.8, 0.0, 2.0]));
+        let energies =
+            TableData::from_csv_text(&ordered.replace("delta_eff_um", "energy_j").replace(",-1\n", ",0\n")).unwrap();
+        assert_eq!(energies.values, TableValues::EnergyJ(vec![0.0, 2.0, 0.0, 0.8, 0.0, 2.0]));
         assert_eq!(TableData::from_csv_text(mixed).unwrap(), table);
     }
 

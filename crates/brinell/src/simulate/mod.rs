@@ -16,7 +16,7 @@ mod switches;
 
 use crate::channel::{self, Channel, Frame};
 use crate::error::{Error, refuse};
-use crate::model::{Energy, Model, Power};
+use crate::model::{Custom, Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::decimate::FACTOR;
@@ -213,6 +213,16 @@ impl Simulation {
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         refuse(scenario.problems())?;
         Self::unchecked(scenario)
+    }
+
+    /// The same with a contact law and further forces of the user's own.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; where the scenario's equations have no place for them: `lumped`, and for a law of contact `tilting`, a profile and
+    /// centred geometry.
+    pub fn with_custom(scenario: &Scenario, custom: Custom) -> Result<Self, Error> {
+        refuse(scenario.problems())?;
+        Self::of(scenario, Model::with_custom(scenario, custom)?)
     }
 
     /// The same of a scenario as it was read, which has been checked.

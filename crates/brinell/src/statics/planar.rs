@@ -39,7 +39,7 @@ type Turned = [f64; 2];
 /// its forces have no potential. There the angles are held while the balance is found, and those of that balance are held for the next.
 pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     let moves_damage = model.exact && !model.defects.is_empty();
-    if !moves_damage || model.contact_law(Side::Outer).pushes() {
+    if !moves_damage || model.has_pushing_law() {
         return solve_held(model, problem, None);
     }
     let mut held: Vec<Turned> = vec![[0.0; 2]; model.layout.rollers()];
@@ -254,7 +254,7 @@ struct Between<'a> {
 impl Between<'_> {
     /// The roller's angles as seen from the centre of a ring. Where nothing is damaged they do not matter.
     fn angles(&self, side: Side, seen: &Seen) -> Angles {
-        if self.model.defects.is_empty() {
+        if self.model.defects.is_empty() && self.model.custom.contact.is_none() {
             return self.angles;
         }
         let turned = self.held.map_or_else(|| seen.turned(), |held| held[side as usize]);
@@ -271,7 +271,7 @@ impl Between<'_> {
         let (seen, deltas) = (self.sides.map(|side| side.see(r)), self.deformations(r));
         let contact = |side: Side| {
             let (seen, delta) = (&seen[side as usize], deltas[side as usize]);
-            self.model.contact_law(side).at(self.model.defects_of(self.slot, side), &self.angles(side, seen), delta)
+            self.model.at_rest((self.slot, side), &self.angles(side, seen), delta)
         };
         (seen, SIDES.map(contact))
     }
@@ -338,8 +338,7 @@ impl Between<'_> {
     fn energy(&self, r: f64, seen: &[Seen; 2]) -> f64 {
         let (model, deltas) = (self.model, self.deformations(r));
         let stored = |side: Side| {
-            let (law, defects) = (model.contact_law(side), model.defects_of(self.slot, side));
-            law.energy(defects, &self.angles(side, &seen[side as usize]), deltas[side as usize])
+            model.energy_at_rest((self.slot, side), &self.angles(side, &seen[side as usize]), deltas[side as usize])
         };
         stored(Side::Inner) + stored(Side::Outer) - self.own * r
     }

@@ -164,9 +164,14 @@ fn prop_a_table_is_a_file_or_what_stands_in_it() {
     let inline = "{ s_mm = [-2, 0, 2], delta_um = [0, 1, 5], delta_eff_um = [0, 1, 5, 0, 0.4, 3.9, 0, 1, 5] }";
     let loaded = mechanics(&text, &[("defects.0.table", inline)]);
     let Some(DefectTable::Read(table)) = &loaded.scenario.defects[0].table else { panic!("no table") };
-    assert_eq!((table.s_mm.len(), table.delta_um.len(), table.delta_eff_um[4]), (3, 3, 0.4));
+    assert_eq!((table.s_mm.len(), table.delta_um.len(), table.values.list()[4]), (3, 3, 0.4));
     assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
     refused(&text, &[LAWS, ("contact.law", "ecl"), ("defects.0.table", inline)], "defects.0.table", "ecl");
+    let energies = inline.replace("delta_eff_um", "energy_j");
+    let loaded = mechanics(&text, &[("defects.0.table", &energies)]);
+    assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
+    let both = energies.replace("energy_j", "delta_eff_um = [], energy_j");
+    refused(&text, &[LAWS, ("defects.0.table", &both)], "defects.0.table", "make no table");
     // Of half a per cent's accuracy, raised by 1 um.
     let rim = "{ s_mm = [-2, 0, 2], delta_um = [-1, 0, 5], delta_eff_um = [-1, 0, 5.02, 0, 1, 6, -0.5, 0, 4.98] }";
     mechanics(&text, &[("defects.0.table", rim)]);
@@ -192,8 +197,8 @@ fn prop_a_table_is_a_file_or_what_stands_in_it() {
         refused(&text, &[LAWS, ("defects.0.table", value)], "defects.0.table", words);
     }
     let mut built = loaded.scenario.clone();
-    built.defects[0].table =
-        Some(DefectTable::Read(TableData { s_mm: vec![0.0], delta_um: vec![0.0], delta_eff_um: vec![] }));
+    let values = TableValues::DeltaEffUm(vec![]);
+    built.defects[0].table = Some(DefectTable::Read(TableData { s_mm: vec![0.0], delta_um: vec![0.0], values }));
     assert!(built.problems().iter().any(|p| p.key == "defects.0.table"));
 }
 

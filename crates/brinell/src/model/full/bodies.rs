@@ -1,9 +1,9 @@
 //! Cages and rings, which take up what the rollers leave.
 
-use super::sums::Sums;
+use super::sums::{Sums, Turn};
 use crate::cage::GuideForce;
 use crate::defect::Side;
-use crate::model::{Model, Tilt, Workspace};
+use crate::model::{Bodies, External, Forces, Model, Power, Tilt, Workspace};
 
 /// What guides each cage (section 6), into the workspace. Long chains of operations that wait for one another and for
 /// no roller: a processor that is given them first works on the rollers meanwhile.
@@ -120,4 +120,30 @@ pub(super) fn tilting_rings(
             sums.power.support += ring.support.damping * rate * rate;
         }
     }
+}
+
+/// Further forces of the user's own on all bodies.
+#[cold]
+pub(super) fn further(
+    model: &Model,
+    (t, turn): (f64, Turn),
+    (q, v): (&[f64], &[f64]),
+    a: &mut [f64],
+    ws: &mut Workspace,
+    power: &mut Power,
+) {
+    let bodies = Bodies {
+        layout: &model.layout,
+        pitch: model.geometry.pitch_radius,
+        q,
+        v,
+        directions: [&ws.sin, &ws.cos],
+        turn: (turn.angle, turn.speed),
+    };
+    let levers = model.tilt.as_ref().map_or(&[][..], |tilt| &tilt.rows);
+    let (inertia, external) = (&model.inertia, External::default());
+    let mut forces = Forces { bodies: &bodies, inertia, levers, a, power: 0.0, external };
+    model.custom.forces.iter().for_each(|force| force.add(t, &bodies, &mut forces));
+    power.load += forces.power;
+    ws.external = forces.external;
 }

@@ -3,9 +3,10 @@
 
 use super::view::{Plane, column, columns, pair, polar};
 use crate::contact::film::SqueezeFilm;
-use crate::contact::{Damping, damped};
+use crate::contact::{ContactLaw, Damping, damped};
 use crate::defect::{Angles, SIDES, Side, ecl};
 use crate::lanes::Lanes;
+use crate::model::contact_law::by_law;
 use crate::model::leaning::{Leaned, positive};
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Resting, Workspace};
@@ -146,6 +147,7 @@ impl<'a, L: Lanes> Tilting<'a, L> {
 pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
     let count = model.layout.slots / L::COUNT;
     let per_slip = L::splat(1.0 / model.friction.slip_velocity);
+    let by_custom_law = model.custom.contact.is_some();
     for side in SIDES {
         let law = *model.contact(side);
         let stiffness = L::splat(law.stiffness);
@@ -163,7 +165,7 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
         for group in 0..count {
             let delta = L::new(deformation[group]);
             // Outside the load zone whole groups of inner contacts are open; a raised edge may still meet one.
-            maybe_closed[group] = candidates[group] != 0 || delta.any_positive();
+            maybe_closed[group] = by_custom_law || candidates[group] != 0 || delta.any_positive();
             let mut x = L::zero();
             if maybe_closed[group] {
                 x = law.exponent.of(delta);
@@ -231,6 +233,9 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(model: &Model, slices: &Slices,
 /// Elastic forces of the contacts that are on damage, section 3, in place of those of healthy raceways; where rollers tilt the damped ones.
 #[inline(always)]
 pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
+    if let Some(law) = &model.custom.contact {
+        return custom(model, &**law, (q, ring_angle), ws);
+    }
     for side in SIDES {
         let k = side as usize;
         if model.broad_phase[k].slots.is_empty() {
@@ -256,6 +261,23 @@ pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_
                     Law::Ecl => on_damage(model, at, (q, ring_angle), contacts),
                 }
             }
+        }
+    }
+}
+
+/// Every contact by a law of the user's own, in place of the program's.
+#[cold]
+fn custom(model: &Model, law: &dyn ContactLaw, (q, ring_angle): (&[f64], f64), ws: &mut Workspace) {
+    for side in SIDES {
+        let contacts = &mut ws.contacts[side as usize];
+        for slot in 0..model.layout.rollers() {
+            let delta = contacts.pressed_or_deformed()[slot];
+            let angles = met_at(model, (q, ring_angle), contacts, slot);
+            let resting = Resting::from(by_law(law, (slot, side), &model.layout, &angles, delta));
+            contacts.elastic[slot] = resting.force;
+            contacts.damper[slot] = model.contact(side).damping.of(resting.tangent, delta.max(0.0));
+            contacts.push[slot] = resting.push;
+            contacts.push_element[slot] = resting.push_element;
         }
     }
 }

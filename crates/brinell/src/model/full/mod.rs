@@ -65,6 +65,9 @@ pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64
     if let Some(tilt) = &model.tilt {
         bodies::tilting_rings(model, tilt, (t, speed), (q, v), a, &mut sums);
     }
+    if !model.custom.forces.is_empty() {
+        bodies::further(model, (t, turn), (q, v), a, ws, &mut sums.power);
+    }
     ws.torques = sums.torques;
     ws.power = sums.power;
 }

@@ -49,7 +49,7 @@ pub(super) fn push(model: &Model, side: Side, contacts: &mut Contacts) {
         return;
     }
     // Where damage can be met, it has written its own.
-    if model.broad_phase[side as usize].slots.is_empty() {
+    if model.broad_phase[side as usize].slots.is_empty() && model.custom.contact.is_none() {
         contacts.push.fill(0.0);
         contacts.push_element.fill(0.0);
     }
