@@ -84,14 +84,16 @@ impl Defect {
 
     /// From the scenario. `None` where its shape makes no sense, or its row or roller counts from 0.
     pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing, contact: &scenario::Contact) -> Option<Self> {
-        let surface = match defect.on {
+        // No `..`: a key that is added is used, or its `_` says who reads it.
+        let scenario::Defect { on, row, center_deg, depth_um, axial_offset_mm, shape, table: _ /* Model */ } = defect;
+        let surface = match *on {
             Surface::Roller(k) => Surface::Roller(k.checked_sub(1)?),
             raceway => raceway,
         };
-        let depth = 1e-6 * defect.depth_um;
+        let depth = 1e-6 * depth_um;
         let roller_length = 1e-3 * bearing.axial_reach_mm();
-        let offset = 1e-3 * defect.axial_offset_mm;
-        let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
+        let offset = 1e-3 * axial_offset_mm;
+        let shape = Shape::new(shape, depth)?.placed(offset, roller_length);
         let middle = if shape.is_width() { offset } else { 0.0 };
         let floors = SIDES.map(|side| {
             if contact.law != Law::Ecl || !meets(surface, side) {
@@ -112,8 +114,8 @@ impl Defect {
             windows: [angles_between(shape.arc().into(), radius); 2],
             element: bearing.element,
             surface,
-            row: defect.row.checked_sub(1)?,
-            center: defect.center_deg.to_radians(),
+            row: row.checked_sub(1)?,
+            center: center_deg.to_radians(),
             depth,
             shape,
             middle,

@@ -84,12 +84,31 @@ impl Sensor {
 
     /// Whether there is anything between ring and record.
     pub fn is_on(&self) -> bool {
-        let filters = [self.mounting_resonance_hz, self.low_cut_hz, self.high_cut_hz];
-        self.direction_deg.is_some()
-            || filters.iter().any(Option::is_some)
+        // No `..`: a key that is added makes a difference by itself, or its `_` says with which it does.
+        let Self {
+            direction_deg,
+            sensitivity_mv_per_m_per_s2: _, // the direction's, the converter's
+            mounting_resonance_hz,
+            mounting_damping_ratio: _,
+            low_cut_hz,
+            high_cut_hz,
+            noise_rms_m_per_s2: _, // noise_rms()
+            noise_snr_db: _,
+            noise_reference_rms_m_per_s2: _,
+            noise_colour: _,
+            noise_corner_hz: _,
+            noise_seed: _,
+            converter_bits: _, // converter()
+            converter_range_m_per_s2: _,
+            converter_range_mv: _,
+            path,
+        } = self;
+        let filters = [mounting_resonance_hz, low_cut_hz, high_cut_hz];
+        direction_deg.is_some()
+            || filters.iter().any(|filter| filter.is_some())
             || self.noise_rms().is_some()
             || self.converter().is_some()
-            || !self.path.is_empty()
+            || !path.is_empty()
     }
 
     /// Standard deviation of the noise, m/s^2, whichever way it is given.

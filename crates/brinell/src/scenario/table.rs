@@ -118,7 +118,7 @@ impl TableData {
         if rows.len() > MOST_NODES {
             return Err(fault(Some(number), format!("{} nodes", rows.len()), format!("at most {MOST_NODES} of them")));
         }
-        let (s_mm, delta_um, list) = on_grid(&rows)?;
+        let [s_mm, delta_um, list] = on_grid(&rows)?;
         let values = if values == VALUES[1] { TableValues::EnergyJ(list) } else { TableValues::DeltaEffUm(list) };
         let table = TableData { s_mm, delta_um, values };
         table.check()?;
@@ -212,7 +212,7 @@ fn row(number: usize, line: &str, (places, columns): ([usize; 3], [&str; 3])) ->
 }
 
 /// The nodes in order; the grid is that of all s and all delta there are.
-fn on_grid(rows: &[Row]) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>), TableFault> {
+fn on_grid(rows: &[Row]) -> Result<[Vec<f64>; 3], TableFault> {
     let axis = |which: usize| {
         let mut all: Vec<f64> = rows.iter().map(|(_, values)| values[which]).collect();
         all.sort_by(f64::total_cmp);
@@ -240,7 +240,7 @@ fn on_grid(rows: &[Row]) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>), TableFault> {
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let list = order.iter().map(|(_, values)| values[2]).collect();
-    Ok((s_mm, delta_um, list))
+    Ok([s_mm, delta_um, list])
 }
 
 #[cfg(test)]
