@@ -9,7 +9,8 @@ export async function hosted(module) {
   function answer(bytes) {
     const at = wasm.give(bytes.length) >>> 0;
     new Uint8Array(wasm.memory.buffer, at, bytes.length).set(bytes);
-    const out = wasm.ask() >>> 0, length = new DataView(wasm.memory.buffer).getUint32(out, true);
+    const out = wasm.ask() >>> 0,
+      length = new DataView(wasm.memory.buffer).getUint32(out, true);
     const answer = new Uint8Array(wasm.memory.buffer).slice(out + 4, out + 4 + length);
     wasm.release();
     return answer;

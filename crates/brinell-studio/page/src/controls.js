@@ -37,34 +37,68 @@ export class Field {
     this.id = `field-${++count}`;
     this.#span = spec.span ?? [0, 1];
     this.#trouble = h("p", { className: "trouble", role: "alert", id: `${this.id}-trouble` });
-    this.#clear = h("button", { type: "button", className: "clear", hidden: true, title: "Back to the default", "aria-label": `${spec.label}: back to the default`,
-      onclick: () => changed(spec, undefined, false) }, "default");
+    this.#clear = h(
+      "button",
+      {
+        type: "button",
+        className: "clear",
+        hidden: true,
+        title: "Back to the default",
+        "aria-label": `${spec.label}: back to the default`,
+        onclick: () => changed(spec, undefined, false),
+      },
+      "default",
+    );
     this.#make(range);
     const label = h("span", { className: "name" }, h("label", { htmlFor: this.id }, spec.label), this.#clear);
     const note = !noted || !spec.note ? null : h("p", { className: "note", id: `${this.id}-note` }, spec.note);
     this.#input?.setAttribute("aria-describedby", `${note ? `${note.id} ` : ""}${this.#trouble.id}`);
-    this.element = h("div", { className: this.#range ? "field" : "field plain", title: spec.note }, label, this.#range, this.#input,
-      h("span", { className: "unit" }, spec.unit), note, this.#trouble);
+    this.element = h(
+      "div",
+      { className: this.#range ? "field" : "field plain", title: spec.note },
+      label,
+      this.#range,
+      this.#input,
+      h("span", { className: "unit" }, spec.unit),
+      note,
+      this.#trouble,
+    );
   }
 
   /** @param {boolean} ranged */
   #make(ranged) {
-    const { spec, id } = this, take = (/** @type {any} */ value, live = false) => this.changed(spec, value, live);
-    if (spec.kind === "choice") this.#input = h("select", { id, onchange: () => take(this.#input?.value || undefined) },
-      ...(spec.options ?? []).map(([value, words]) => h("option", { value }, words)));
+    const { spec, id } = this,
+      take = (/** @type {any} */ value, live = false) => this.changed(spec, value, live);
+    if (spec.kind === "choice")
+      this.#input = h(
+        "select",
+        { id, onchange: () => take(this.#input?.value || undefined) },
+        ...(spec.options ?? []).map(([value, words]) => h("option", { value }, words)),
+      );
     else if (spec.kind === "flag") {
       const box = h("input", { id, type: "checkbox", onchange: () => take(box.checked) });
       this.#input = box;
     } else if (spec.kind === "text") {
-      const box = h("input", { id, type: "text", spellcheck: false, onchange: () => take(spec.words ? box.value.trim() || undefined : parsed(box.value)) });
+      const box = h("input", {
+        id,
+        type: "text",
+        spellcheck: false,
+        onchange: () => take(spec.words ? box.value.trim() || undefined : parsed(box.value)),
+      });
       this.#input = box;
     } else {
       const box = numberInput({ id, onchange: () => this.#typed(box, take) }, 1, spec.min);
       // A browser tells no change where the text is again what the page had put there.
-      const rest = () => { if (this.#typing) this.#typed(box, take); };
-      box.addEventListener("input", () => { this.#typing = true; });
+      const rest = () => {
+        if (this.#typing) this.#typed(box, take);
+      };
+      box.addEventListener("input", () => {
+        this.#typing = true;
+      });
       box.addEventListener("blur", rest);
-      box.addEventListener("keydown", (e) => { if (e.key === "Enter") rest(); });
+      box.addEventListener("keydown", (e) => {
+        if (e.key === "Enter") rest();
+      });
       this.#input = box;
       if (spec.span || ranged) this.#range = this.#slider(take);
     }
@@ -72,13 +106,21 @@ export class Field {
 
   /** Takes what was typed once it is whole. @param {HTMLInputElement} box @param {(value: number | string | undefined) => void} take */
   #typed(box, take) {
-    const { spec } = this, { units } = spec;
+    const { spec } = this,
+      { units } = spec;
     // A quantity of the scenario may have its unit with it ("25 Hz"): the engine reads that; what the page makes a key of, the page.
-    const [, size, named] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(spec.united || units ? box.value.trim() : "") ?? [], whole = numberOf(box.value);
-    const unit = typeof whole === "string" ? named : undefined, empty = box.value.trim() === "", number = unit ? numberOf(size) : whole;
-    const said = unit && units && typeof number === "number" ? inUnit(number, unit, units) : number, shown = unit || spec.unit;
+    const [, size, named] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(spec.united || units ? box.value.trim() : "") ?? [],
+      whole = numberOf(box.value);
+    const unit = typeof whole === "string" ? named : undefined,
+      empty = box.value.trim() === "",
+      number = unit ? numberOf(size) : whole;
+    const said = unit && units && typeof number === "number" ? inUnit(number, unit, units) : number,
+      shown = unit || spec.unit;
     this.#typing = false;
-    this.unread = !empty && typeof said === "string" ? `${said}${shown && said === number ? ` (${shown})` : ""}` : spec.refuse?.(empty ? undefined : Number(said)) ?? "";
+    this.unread =
+      !empty && typeof said === "string"
+        ? `${said}${shown && said === number ? ` (${shown})` : ""}`
+        : (spec.refuse?.(empty ? undefined : Number(said)) ?? "");
     box.setCustomValidity(this.unread);
     this.say(this.#said);
     if (this.unread) return;
@@ -91,7 +133,12 @@ export class Field {
   /** Puts back what was taken last, in place of what is typed and not taken or not read: whether there was something. */
   restore() {
     const box = this.#input;
-    if (!(box instanceof HTMLInputElement) || this.spec.kind !== "number" || !(this.unread || (this.#typing && box.value !== this.#shown))) return false;
+    if (
+      !(box instanceof HTMLInputElement) ||
+      this.spec.kind !== "number" ||
+      !(this.unread || (this.#typing && box.value !== this.#shown))
+    )
+      return false;
     this.#typing = false;
     this.unread = "";
     box.value = this.#shown;
@@ -102,12 +149,21 @@ export class Field {
 
   /** @param {(value: number, live: boolean) => void} take */
   #slider(take) {
-    const range = h("input", { type: "range", min: "0", max: String(STEPS), "aria-label": `${this.spec.label}, range` });
+    const range = h("input", {
+      type: "range",
+      min: "0",
+      max: String(STEPS),
+      "aria-label": `${this.spec.label}, range`,
+    });
     const value = () => {
-      const w = range.valueAsNumber / STEPS, [a, b] = this.#span;
+      const w = range.valueAsNumber / STEPS,
+        [a, b] = this.#span;
       const v = this.spec.log && a > 0 ? a * (b / a) ** w : a + w * (b - a);
       // Round numbers: three digits, or a step of the span.
-      const rounded = this.spec.log && a > 0 ? Number(v.toPrecision(3)) : Number((Math.round(v / nice((b - a) / STEPS)) * nice((b - a) / STEPS)).toPrecision(10));
+      const rounded =
+        this.spec.log && a > 0
+          ? Number(v.toPrecision(3))
+          : Number((Math.round(v / nice((b - a) / STEPS)) * nice((b - a) / STEPS)).toPrecision(10));
       return this.spec.integer ? Math.round(rounded) : rounded;
     };
     range.addEventListener("input", () => take(value(), true));
@@ -117,20 +173,36 @@ export class Field {
 
   /** Shows what is wanted, or what holds where nothing is stated. @param {any} wanted @param {any} all @param {any} [opened] what the engine read `all` from */
   update(wanted, all, opened) {
-    const read = this.spec.read(wanted), input = this.#input;
+    const read = this.spec.read(wanted),
+      input = this.#input;
     // A number that is stated as a text with its unit shows as the engine read it, once it has.
-    const number = this.spec.kind === "number", stated = number && typeof read === "string" && !this.#said && read === this.spec.read(opened) ? undefined : read;
+    const number = this.spec.kind === "number",
+      stated = number && typeof read === "string" && !this.#said && read === this.spec.read(opened) ? undefined : read;
     if (read !== undefined) this.#emptied = false;
     // While a key is refused the last good bearing's value is not what is wanted.
-    const known = this.spec.read(all) ?? this.spec.fallback, holds = stated ?? (number && (this.#emptied || this.#said) ? undefined : known);
-    this.#clear.hidden = get(wanted, this.spec.path) === undefined || !!this.spec.required || !(typeof this.spec.path[0] === "string") || this.spec.path[0] === "defects";
+    const known = this.spec.read(all) ?? this.spec.fallback,
+      holds = stated ?? (number && (this.#emptied || this.#said) ? undefined : known);
+    this.#clear.hidden =
+      get(wanted, this.spec.path) === undefined ||
+      !!this.spec.required ||
+      !(typeof this.spec.path[0] === "string") ||
+      this.spec.path[0] === "defects";
     if (!input) return;
-    if (this.spec.other) /** @type {HTMLInputElement} */ (input).placeholder = this.spec.read(wanted) === undefined ? String(this.spec.other(wanted) ?? "") : "";
+    if (this.spec.other)
+      /** @type {HTMLInputElement} */ (input).placeholder =
+        this.spec.read(wanted) === undefined ? String(this.spec.other(wanted) ?? "") : "";
     if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = holds === true;
     else if (input !== document.activeElement || (number && input.value === this.#shown)) {
       // What is not read stays until the key has another value.
-      if (this.unread && holds !== this.#held) this.say(this.unread = "");
-      const text = holds === undefined || holds === null ? "" : number && stated === undefined && typeof read === "string" ? String(Number(holds.toPrecision(7))) : this.spec.kind === "text" && typeof holds !== "string" ? JSON.stringify(holds) : String(holds);
+      if (this.unread && holds !== this.#held) this.say((this.unread = ""));
+      const text =
+        holds === undefined || holds === null
+          ? ""
+          : number && stated === undefined && typeof read === "string"
+            ? String(Number(holds.toPrecision(7)))
+            : this.spec.kind === "text" && typeof holds !== "string"
+              ? JSON.stringify(holds)
+              : String(holds);
       if (!this.unread && input.value !== text) input.value = text;
       this.#shown = text;
       this.#held = holds;
@@ -140,14 +212,19 @@ export class Field {
 
   /** @param {any} holds */
   #place(holds) {
-    const range = /** @type {HTMLInputElement} */ (this.#range), known = typeof holds === "number";
+    const range = /** @type {HTMLInputElement} */ (this.#range),
+      known = typeof holds === "number";
     range.disabled = !known;
     if (!known) return;
     if (!this.spec.span && range !== document.activeElement) this.#span = spanOf(holds, this.spec);
     // A value beyond the range widens it, unless the hand is on it.
-    if (this.spec.span && range !== document.activeElement) this.#span = [Math.min(this.spec.span[0], this.spec.log && holds <= 0 ? this.spec.span[0] : holds),
-      Math.max(this.spec.span[1], holds)];
-    const [a, b] = this.#span, w = this.spec.log && a > 0 ? Math.log(Math.max(holds, a) / a) / Math.log(b / a) : (holds - a) / (b - a);
+    if (this.spec.span && range !== document.activeElement)
+      this.#span = [
+        Math.min(this.spec.span[0], this.spec.log && holds <= 0 ? this.spec.span[0] : holds),
+        Math.max(this.spec.span[1], holds),
+      ];
+    const [a, b] = this.#span,
+      w = this.spec.log && a > 0 ? Math.log(Math.max(holds, a) / a) / Math.log(b / a) : (holds - a) / (b - a);
     const at = String(Math.round(STEPS * Math.min(1, Math.max(0, w))));
     if (range.value !== at && range !== document.activeElement) range.value = at;
     range.setAttribute("aria-valuetext", `${short(holds, 4)} ${this.spec.unit}`);
@@ -162,12 +239,16 @@ export class Field {
     else this.#input?.removeAttribute("aria-invalid");
   }
 
-  focus() { this.#input?.focus(); }
+  focus() {
+    this.#input?.focus();
+  }
 }
 
 /** A number of so many units; else, in words, which there are. @param {number} number @param {string} unit @param {Record<string, number>} units */
 function inUnit(number, unit, units) {
-  return unit in units ? Number((number * units[unit]).toPrecision(14)) : `no unit here is called "${unit}"; allowed: ${Object.keys(units).join(", ")}`;
+  return unit in units
+    ? Number((number * units[unit]).toPrecision(14))
+    : `no unit here is called "${unit}"; allowed: ${Object.keys(units).join(", ")}`;
 }
 
 /** Lists and tables are typed as JSON; anything else is a word. @param {string} text */
@@ -189,8 +270,12 @@ function nice(width) {
 /** @param {number} value @param {Spec} spec @returns {[number, number]} */
 function spanOf(value, spec) {
   if (spec.log && value > 0) return [value / 10, Math.min(value * 10, spec.max ?? Infinity)];
-  const reach = Math.abs(value) || 1, low = spec.min ?? (value < 0 ? 4 * value : 0);
-  return [low, Math.min(spec.max !== undefined && spec.max <= 1000 * reach ? spec.max : Infinity, value > 0 ? 4 * value : reach)];
+  const reach = Math.abs(value) || 1,
+    low = spec.min ?? (value < 0 ? 4 * value : 0);
+  return [
+    low,
+    Math.min(spec.max !== undefined && spec.max <= 1000 * reach ? spec.max : Infinity, value > 0 ? 4 * value : reach),
+  ];
 }
 
 export class Controls {
@@ -205,17 +290,36 @@ export class Controls {
       return field.element;
     };
     const name = h("div", { className: "fields" }, ...mainSpecs(schema).map(make));
-    const sections = moreSpecs(schema).map((section) => h("details", { className: "section" },
-      h("summary", {}, section.name.charAt(0).toUpperCase() + section.name.slice(1)), h("p", { className: "note" }, section.note),
-        h("div", { className: "fields" }, ...section.specs.map(make))));
-    const why = h("button", { type: "button", className: "why", "aria-pressed": "false",
-      onclick: () => why.setAttribute("aria-pressed", String(root.classList.toggle("reasons"))) }, "Explain");
-    root.replaceChildren(h("div", { className: "tools" }, h("h2", {}, "Run"), h("span", { className: "spacer" }), why), name,
-      h("details", {}, h("summary", {}, "More: every key of the scenario"), ...sections));
+    const sections = moreSpecs(schema).map((section) =>
+      h(
+        "details",
+        { className: "section" },
+        h("summary", {}, section.name.charAt(0).toUpperCase() + section.name.slice(1)),
+        h("p", { className: "note" }, section.note),
+        h("div", { className: "fields" }, ...section.specs.map(make)),
+      ),
+    );
+    const why = h(
+      "button",
+      {
+        type: "button",
+        className: "why",
+        "aria-pressed": "false",
+        onclick: () => why.setAttribute("aria-pressed", String(root.classList.toggle("reasons"))),
+      },
+      "Explain",
+    );
+    root.replaceChildren(
+      h("div", { className: "tools" }, h("h2", {}, "Run"), h("span", { className: "spacer" }), why),
+      name,
+      h("details", {}, h("summary", {}, "More: every key of the scenario"), ...sections),
+    );
   }
 
   /** @param {any} wanted @param {{scenario: any, all: any}} opened */
-  update(wanted, { scenario, all }) { for (const field of this.fields) field.update(wanted, all, scenario); }
+  update(wanted, { scenario, all }) {
+    for (const field of this.fields) field.update(wanted, all, scenario);
+  }
 }
 
 /**
@@ -227,13 +331,20 @@ export function lay(fields, problems) {
   const rest = new Set(problems);
   for (const field of fields) {
     const path = field.spec.path;
-    const mine = problems.filter((p) => p.path.length > 0 && rest.has(p) && path.every((key, k) => k >= p.path.length || p.path[k] === key)
-      && p.path.length >= Math.min(path.length, 2) && path.length <= p.path.length + 1);
+    const mine = problems.filter(
+      (p) =>
+        p.path.length > 0 &&
+        rest.has(p) &&
+        path.every((key, k) => k >= p.path.length || p.path[k] === key) &&
+        p.path.length >= Math.min(path.length, 2) &&
+        path.length <= p.path.length + 1,
+    );
     const own = mine.filter((p) => p.path.length >= path.length);
     for (const p of own) rest.delete(p);
     field.say(own.map((p) => p.message).join(" "));
     const closed = own.length ? field.element.closest("details:not([open])") : null;
-    for (let node = closed; node; node = node.parentElement?.closest("details:not([open])") ?? null) /** @type {HTMLDetailsElement} */ (node).open = true;
+    for (let node = closed; node; node = node.parentElement?.closest("details:not([open])") ?? null)
+      /** @type {HTMLDetailsElement} */ (node).open = true;
   }
   return [...rest];
 }

@@ -5,11 +5,14 @@ import { still } from "./dom.js";
 
 // Shown of a live signal, s.
 const WINDOW_S = 0.1;
-const WAVE_MS = 50, STILL_MS = 1000;
+const WAVE_MS = 50,
+  STILL_MS = 1000;
 
 export class CurveViews {
   #wave = -Infinity;
-  #views = /** @type {any[]} */ (["waveform", "spectrum", "envelope"].map((kind) => document.querySelector(`#curves brinell-curve[kind="${kind}"]`)));
+  #views = /** @type {any[]} */ (
+    ["waveform", "spectrum", "envelope"].map((kind) => document.querySelector(`#curves brinell-curve[kind="${kind}"]`))
+  );
   #shown = /** @type {any[]} */ ([]);
 
   /**
@@ -21,7 +24,8 @@ export class CurveViews {
    * @param {number} now
    */
   draw(side, other, healthy, measured, now) {
-    const [waveform, spectrum, envelope] = this.#views, inputs = [side, other, side.spectra, other?.spectra, healthy, measured];
+    const [waveform, spectrum, envelope] = this.#views,
+      inputs = [side, other, side.spectra, other?.spectra, healthy, measured];
     if (inputs.some((v, k) => v !== this.#shown[k])) {
       this.#shown = inputs;
       spectrum.data = this.#spectrum(side, other, healthy, measured, "spectrum");
@@ -35,29 +39,61 @@ export class CurveViews {
 
   /** @param {Side} side @param {Side | undefined} other @param {any} healthy */
   #waveform(side, other, healthy) {
-    const rate = side.opened.rate_hz, whole = side.live.state === "done",
+    const rate = side.opened.rate_hz,
+      whole = side.live.state === "done",
       cut = (/** @type {Side} */ s) => s.trace.last(whole ? Infinity : Math.round(WINDOW_S * s.opened.rate_hz)).values;
-    const { first } = side.trace.last(whole ? Infinity : Math.round(WINDOW_S * rate)), values = cut(side), x0 = first / rate;
-    const behind = side.damage.length && healthy?.rate_hz === rate
-      ? { x0, dx: 1 / rate, values: whole ? healthy.x.subarray(0, values.length) : healthy.x.subarray(Math.max(0, healthy.x.length - values.length)) } : null;
+    const { first } = side.trace.last(whole ? Infinity : Math.round(WINDOW_S * rate)),
+      values = cut(side),
+      x0 = first / rate;
+    const behind =
+      side.damage.length && healthy?.rate_hz === rate
+        ? {
+            x0,
+            dx: 1 / rate,
+            values: whole
+              ? healthy.x.subarray(0, values.length)
+              : healthy.x.subarray(Math.max(0, healthy.x.length - values.length)),
+          }
+        : null;
     const second = other?.opened ? { x0, dx: 1 / other.opened.rate_hz, values: cut(other) } : null;
     // Of a whole run the first view leaves out what does not count yet: the load as it comes up.
     const settled = whole ? side.opened.settled_s : undefined;
-    return { x0, dx: 1 / rate, values, unit: side.opened.unit, lines: [], behind, second, names: [side.name, other?.name], settled, stored: "stored" in side };
+    return {
+      x0,
+      dx: 1 / rate,
+      values,
+      unit: side.opened.unit,
+      lines: [],
+      behind,
+      second,
+      names: [side.name, other?.name],
+      settled,
+      stored: "stored" in side,
+    };
   }
 
   /** @param {Side} side @param {Side | undefined} other @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
   #spectrum(side, other, healthy, measured, kind) {
     const got = side.spectra?.[kind];
     if (!got) return null;
-    const curve = (/** @type {any} */ one) => (one?.values?.length ? { x0: 0, dx: one.df, values: one.values } : null), { lines } = side.spectra;
+    const curve = (/** @type {any} */ one) => (one?.values?.length ? { x0: 0, dx: one.df, values: one.values } : null),
+      { lines } = side.spectra;
     // On one axis only what has its unit; a measured signal then takes the other bearing's place.
     const beside = measured?.unit === side.opened.unit ? curve(measured[kind]) : null;
-    const names = beside ? [other ? `${side.name}, simulated (${other.name} is not shown)` : "simulated", "measured"]
+    const names = beside
+      ? [other ? `${side.name}, simulated (${other.name} is not shown)` : "simulated", "measured"]
       : [kind === "envelope" && lines.length ? `${side.name}, with its lines` : side.name, other?.name];
     return {
-      x0: 0, dx: got.df, values: got.values, unit: side.opened.unit, lines, band_hz: got.band_hz, behind: side.damage.length ? curve(healthy?.[kind]) : null,
-      second: beside ?? curve(other?.spectra?.[kind]), names, stored: "stored" in side,
+      x0: 0,
+      dx: got.df,
+      values: got.values,
+      unit: side.opened.unit,
+      lines,
+      band_hz: got.band_hz,
+      behind: side.damage.length ? curve(healthy?.[kind]) : null,
+      second: beside ?? curve(other?.spectra?.[kind]),
+      names,
+      stored: "stored" in side,
     };
   }
 }

@@ -33,7 +33,8 @@ const TOOLS = [
 const HINTS = {
   select: "Drag damage to move it, its handles to size it. Arrows 1° / 0.1 mm, Shift ×10; [ ] depth; Del deletes.",
   pen: "Scratch the raceway: the bearing runs on while you draw. A click makes a dot; Esc takes back what is being drawn.",
-  points: "Click at least three corners; Enter, a double click or the first corner closes the outline. Backspace takes a corner back, Esc drops them.",
+  points:
+    "Click at least three corners; Enter, a double click or the first corner closes the outline. Backspace takes a corner back, Esc drops them.",
   brush: "Paint depth; on a selected depth map it adds to it.",
   rectangle: "Drag from corner to corner, or click for 3 × 4 mm. Esc while dragging takes it back.",
   circle: "Drag from the centre to the rim, or click for 3 mm. Esc while dragging takes it back.",
@@ -43,7 +44,8 @@ const DEEPER = 1.1;
 
 /** @param {string} path */
 function icon(path) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg"), line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg"),
+    line = document.createElementNS("http://www.w3.org/2000/svg", "path");
   svg.setAttribute("viewBox", "0 0 15 15");
   svg.setAttribute("aria-hidden", "true");
   line.setAttribute("d", path);
@@ -53,7 +55,7 @@ function icon(path) {
 
 /** @param {number} s @param {number} turn */
 const degrees = (s, turn) => {
-  const deg = s / turn * 360;
+  const deg = (s / turn) * 360;
   return Number((deg - 360 * Math.round(deg / 360)).toFixed(3));
 };
 
@@ -85,56 +87,134 @@ export class DamagePanel {
   /** @param {HTMLElement} root @param {Owner} owner */
   constructor(root, owner) {
     this.owner = owner;
-    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick, /** @type {Record<string, unknown>} */ more = {}) => h("button",
-      { type: "button", onclick, ...more }, text);
-    const surfaces = /** @type {const} */ ([["outer-raceway", "Outer"], ["inner-raceway", "Inner"], ["roller", "Roller"]]);
+    const button = (
+      /** @type {string} */ text,
+      /** @type {() => void} */ onclick,
+      /** @type {Record<string, unknown>} */ more = {},
+    ) => h("button", { type: "button", onclick, ...more }, text);
+    const surfaces = /** @type {const} */ ([
+      ["outer-raceway", "Outer"],
+      ["inner-raceway", "Inner"],
+      ["roller", "Roller"],
+    ]);
     this.surfaces = surfaces.map(([name, text]) => button(text, () => this.look(name), { "data-surface": name }));
     this.rows = h("select", { onchange: () => this.look(this.surface, Number(this.rows.value)) });
     this.rollers = h("select", { onchange: () => this.look("roller", this.row, Number(this.rollers.value)) });
-    this.tools = TOOLS.map(([tool, name, key, path]) => h("button",
-      { type: "button", className: "icon", title: `${name} (${key})`, "aria-label": name, "data-tool": tool, onclick: () => this.take(tool) }, icon(path),
-        h("span", {}, name)));
-    const size = (/** @type {string} */ label, /** @type {number} */ step, /** @type {() => number} */ most, /** @type {() => number} */ now, /** @type {(value: number) => void} */ take) => {
+    this.tools = TOOLS.map(([tool, name, key, path]) =>
+      h(
+        "button",
+        {
+          type: "button",
+          className: "icon",
+          title: `${name} (${key})`,
+          "aria-label": name,
+          "data-tool": tool,
+          onclick: () => this.take(tool),
+        },
+        icon(path),
+        h("span", {}, name),
+      ),
+    );
+    const size = (
+      /** @type {string} */ label,
+      /** @type {number} */ step,
+      /** @type {() => number} */ most,
+      /** @type {() => number} */ now,
+      /** @type {(value: number) => void} */ take,
+    ) => {
       const why = () => {
         const said = numberOf(box.value);
-        return typeof said === "string" ? said : said > 0 && said <= most() ? "" : `expected more than 0 and at most ${short(most())}`;
+        return typeof said === "string"
+          ? said
+          : said > 0 && said <= most()
+            ? ""
+            : `expected more than 0 and at most ${short(most())}`;
       };
-      const box = numberInput({ className: "narrow-number", value: String(now()), "aria-label": label, oninput: () => box.setAttribute("aria-invalid", String(why() !== "")), onchange: () => {
-        const wrong = why();
-        if (!wrong) take(Number(numberOf(box.value)));
-        notice("size", wrong ? `${label}: ${wrong}; ${now()} stays` : null, { bad: true });
-        box.value = String(now());
-        box.setAttribute("aria-invalid", "false");
-      } }, step);
+      const box = numberInput(
+        {
+          className: "narrow-number",
+          value: String(now()),
+          "aria-label": label,
+          oninput: () => box.setAttribute("aria-invalid", String(why() !== "")),
+          onchange: () => {
+            const wrong = why();
+            if (!wrong) take(Number(numberOf(box.value)));
+            notice("size", wrong ? `${label}: ${wrong}; ${now()} stays` : null, { bad: true });
+            box.value = String(now());
+            box.setAttribute("aria-invalid", "false");
+          },
+        },
+        step,
+      );
       return box;
     };
-    this.width = size("Width of pen and brush, mm", 0.05, () => this.raceway.geometry?.length_mm ?? Infinity, () => this.raceway.penWidth, (value) => { this.raceway.penWidth = value; });
-    this.depth = size("Depth that the brush adds, µm", 1, () => 1000, () => this.#depth, (value) => { this.#depth = value; });
+    this.width = size(
+      "Width of pen and brush, mm",
+      0.05,
+      () => this.raceway.geometry?.length_mm ?? Infinity,
+      () => this.raceway.penWidth,
+      (value) => {
+        this.raceway.penWidth = value;
+      },
+    );
+    this.depth = size(
+      "Depth that the brush adds, µm",
+      1,
+      () => 1000,
+      () => this.#depth,
+      (value) => {
+        this.#depth = value;
+      },
+    );
     this.deepest = h("output", { className: "note" });
     this.raise = h("input", { type: "checkbox" });
     this.undo = button("Undo", () => this.step(owner.undo), { title: "Ctrl-Z" });
     this.redo = button("Redo", () => this.step(), { title: "Ctrl-Shift-Z" });
     this.rollerLabel = h("label", {}, "roller", this.rollers);
     this.widthLabel = h("label", {}, "width", this.width, "mm");
-    this.depthLabel = h("label", { className: "brush", title: "What a stroke of the brush adds along its middle" }, "adds", this.depth, "µm");
+    this.depthLabel = h(
+      "label",
+      { className: "brush", title: "What a stroke of the brush adds along its middle" },
+      "adds",
+      this.depth,
+      "µm",
+    );
     this.raiseLabel = h("label", { className: "brush", title: "The brush takes depth off" }, this.raise, "raise");
-    const group = (/** @type {string} */ label, /** @type {HTMLElement[]} */ buttons) => h("span", { className: "group", role: "group", "aria-label": label },
-      ...buttons);
+    const group = (/** @type {string} */ label, /** @type {HTMLElement[]} */ buttons) =>
+      h("span", { className: "group", role: "group", "aria-label": label }, ...buttons);
     this.chosen = h("div", { className: "chosen" });
     root.append(
-      h("div", { className: "tools" }, h("h2", {}, "Damage"), group("Surface", this.surfaces), h("label", {}, "row", this.rows), this.rollerLabel,
-        group("Tool", this.tools), this.widthLabel,
-        h("span", { className: "spacer" }), group("History", [this.undo, this.redo]),
-        group("View", [button("−", () => this.raceway.zoom(0.8), { "aria-label": "Zoom out" }),
-          button("+", () => this.raceway.zoom(1.25), { "aria-label": "Zoom in" }), button("Fit", () => this.raceway.fit())])),
-      this.raceway, this.chosen);
+      h(
+        "div",
+        { className: "tools" },
+        h("h2", {}, "Damage"),
+        group("Surface", this.surfaces),
+        h("label", {}, "row", this.rows),
+        this.rollerLabel,
+        group("Tool", this.tools),
+        this.widthLabel,
+        h("span", { className: "spacer" }),
+        group("History", [this.undo, this.redo]),
+        group("View", [
+          button("−", () => this.raceway.zoom(0.8), { "aria-label": "Zoom out" }),
+          button("+", () => this.raceway.zoom(1.25), { "aria-label": "Zoom in" }),
+          button("Fit", () => this.raceway.fit()),
+        ]),
+      ),
+      this.raceway,
+      this.chosen,
+    );
     this.raceway.addEventListener("draw", (e) => this.#heed(/** @type {CustomEvent} */ (e).detail));
     this.raceway.addEventListener("tool", (e) => this.take(/** @type {CustomEvent} */ (e).detail));
     this.take("pen");
   }
 
-  get #turn() { return this.raceway.turn; }
-  get #defects() { return this.owner.store().scenario.defects ?? []; }
+  get #turn() {
+    return this.raceway.turn;
+  }
+  get #defects() {
+    return this.owner.store().scenario.defects ?? [];
+  }
 
   /** @param {Tool} tool */
   take(tool) {
@@ -157,10 +237,14 @@ export class DamagePanel {
 
   /** The bearing that runs now. @param {any} opened */
   opened(opened) {
-    const { rows, elements } = opened.geometry, fill = (/** @type {HTMLSelectElement} */ select, /** @type {number} */ n, /** @type {number} */ at) => {
-      if (select.options.length !== n) select.replaceChildren(...Array.from({ length: n }, (_, k) => h("option", { value: String(k + 1) }, String(k + 1))));
-      select.value = String(at);
-    };
+    const { rows, elements } = opened.geometry,
+      fill = (/** @type {HTMLSelectElement} */ select, /** @type {number} */ n, /** @type {number} */ at) => {
+        if (select.options.length !== n)
+          select.replaceChildren(
+            ...Array.from({ length: n }, (_, k) => h("option", { value: String(k + 1) }, String(k + 1))),
+          );
+        select.value = String(at);
+      };
     this.row = Math.min(this.row, rows);
     this.roller = Math.min(this.roller, elements);
     fill(this.rows, rows, this.row);
@@ -187,7 +271,10 @@ export class DamagePanel {
   }
 
   #lay() {
-    const here = this.#damage.filter((one) => one.on === this.surface && one.row === this.row && (one.on !== "roller" || (one.roller ?? 1) === this.roller));
+    const here = this.#damage.filter(
+      (one) =>
+        one.on === this.surface && one.row === this.row && (one.on !== "roller" || (one.roller ?? 1) === this.roller),
+    );
     this.raceway.damage = here;
   }
 
@@ -195,8 +282,11 @@ export class DamagePanel {
   select(defect) {
     this.selected = defect;
     const one = this.#defects[defect - 1];
-    if (one && (one.on !== this.surface || (one.row ?? 1) !== this.row || (one.on === "roller" && one.roller !== this.roller))) this.look(one.on, one.row ?? 1,
-      one.roller ?? this.roller);
+    if (
+      one &&
+      (one.on !== this.surface || (one.row ?? 1) !== this.row || (one.on === "roller" && one.roller !== this.roller))
+    )
+      this.look(one.on, one.row ?? 1, one.roller ?? this.roller);
     this.selected = defect;
     this.update();
     this.raceway.reveal(defect);
@@ -204,7 +294,8 @@ export class DamagePanel {
 
   /** The damage that is drawn next is about as deep as the last one. */
   update(opened = /** @type {any} */ (null)) {
-    const store = this.owner.store(), defect = this.#defects[this.selected - 1];
+    const store = this.owner.store(),
+      defect = this.#defects[this.selected - 1];
     if (!defect) this.selected = 0;
     if (this.depth !== document.activeElement) this.depth.value = String(this.#depth);
     this.#deep();
@@ -212,39 +303,64 @@ export class DamagePanel {
     this.raceway.defect = defect ?? null;
     this.undo.disabled = !store.canUndo;
     this.redo.disabled = !store.canRedo;
-    for (const button of this.surfaces) button.setAttribute("aria-pressed", String(button.dataset.surface === this.surface));
+    for (const button of this.surfaces)
+      button.setAttribute("aria-pressed", String(button.dataset.surface === this.surface));
     this.rollerLabel.hidden = this.surface !== "roller";
-    const key = JSON.stringify([this.selected, defect?.on, Object.keys(defect?.shape ?? {}), this.raceway.tool,
-      this.#defects.map((/** @type {any} */ d) => [d.on, d.row, d.center_deg, Object.keys(d.shape ?? {})])]);
+    const key = JSON.stringify([
+      this.selected,
+      defect?.on,
+      Object.keys(defect?.shape ?? {}),
+      this.raceway.tool,
+      this.#defects.map((/** @type {any} */ d) => [d.on, d.row, d.center_deg, Object.keys(d.shape ?? {})]),
+    ]);
     if (key !== this.#shown) this.#rebuild(defect, key);
     for (const field of this.fields) field.update(store.scenario, opened?.all, opened?.scenario);
-    if (defect) this.raceway.describe(`Selected: damage ${this.selected}, at ${short(defect.center_deg ?? 0, 4)} degrees, ${short(defect.depth_um ?? 0)} µm deep.`);
+    if (defect)
+      this.raceway.describe(
+        `Selected: damage ${this.selected}, at ${short(defect.center_deg ?? 0, 4)} degrees, ${short(defect.depth_um ?? 0)} µm deep.`,
+      );
   }
 
   /** A step back or forth is seen: damage of another surface that it changes is looked at. @param {() => void} [act] */
   step(act = () => this.owner.store().redo()) {
     const before = this.#defects;
     act();
-    const after = this.#defects, changed = (/** @type {any[]} */ a, /** @type {any[]} */ b) => a.filter((d) => !b.some((o) => JSON.stringify(o) === JSON.stringify(d)));
+    const after = this.#defects,
+      changed = (/** @type {any[]} */ a, /** @type {any[]} */ b) =>
+        a.filter((d) => !b.some((o) => JSON.stringify(o) === JSON.stringify(d)));
     const all = [...changed(after, before), ...changed(before, after)];
-    if (all.length && !all.some((d) => d.on === this.surface)) this.look(all[0].on, all[0].row ?? 1, all[0].roller ?? this.roller);
+    if (all.length && !all.some((d) => d.on === this.surface))
+      this.look(all[0].on, all[0].row ?? 1, all[0].roller ?? this.roller);
   }
 
   /** @param {any} defect @param {string} key */
   #rebuild(defect, key) {
-    const before = this.#shown && JSON.parse(this.#shown), now = JSON.parse(key), schema = this.owner.schema();
+    const before = this.#shown && JSON.parse(this.#shown),
+      now = JSON.parse(key),
+      schema = this.owner.schema();
     this.#shown = key;
     if (!schema) return;
     // The fields stay while only places change: a hand may be on one of them.
     const same = before && JSON.stringify(before.slice(0, 4)) === JSON.stringify(now.slice(0, 4));
-    const chips = h("div", { className: "chips", role: "group", "aria-label": "Damaged places" },
-      ...this.#defects.map((/** @type {any} */ d, /** @type {number} */ k) => this.#chip(d, k + 1)));
+    const chips = h(
+      "div",
+      { className: "chips", role: "group", "aria-label": "Damaged places" },
+      ...this.#defects.map((/** @type {any} */ d, /** @type {number} */ k) => this.#chip(d, k + 1)),
+    );
     if (same) return void this.chosen.querySelector(".chips")?.replaceWith(chips);
-    this.fields = defect ? defectSpecs(schema, defect, this.selected - 1).map((s) => new Field(s, this.owner.changed, { note: false, range: false })) : [];
+    this.fields = defect
+      ? defectSpecs(schema, defect, this.selected - 1).map(
+          (s) => new Field(s, this.owner.changed, { note: false, range: false }),
+        )
+      : [];
     const hint = h("p", { className: "hint" }, HINTS[this.raceway.tool]);
-    this.chosen.replaceChildren(chips, ...(this.raceway.tool === "brush" ? [this.depthLabel, this.raiseLabel] : []), this.deepest,
+    this.chosen.replaceChildren(
+      chips,
+      ...(this.raceway.tool === "brush" ? [this.depthLabel, this.raiseLabel] : []),
+      this.deepest,
       ...this.fields.map((f) => f.element),
-      defect ? h("button", { type: "button", onclick: () => this.#heed({ type: "delete" }) }, "Delete") : hint);
+      defect ? h("button", { type: "button", onclick: () => this.#heed({ type: "delete" }) }, "Delete") : hint,
+    );
     this.owner.rebuilt();
   }
 
@@ -253,28 +369,41 @@ export class DamagePanel {
     const names = /** @type {Record<string, string>} */ ({ li2023_irregular: "irregular", depth_map: "depth map" }),
       kind = Object.keys(defect.shape ?? {})[0] ?? "damage";
     const place = `${String(defect.on).replace("-raceway", "")}${(this.rows.options.length > 1 && ` ${defect.row ?? 1}`) || ""}`;
-    return h("button", { type: "button", "aria-pressed": String(number === this.selected), onclick: () => this.select(number) },
-      `${number} ${names[kind] ?? kind}, ${place}, ${typeof defect.center_deg === "string" ? defect.center_deg : `${short(defect.center_deg ?? 0, 3)}°`}`);
+    return h(
+      "button",
+      { type: "button", "aria-pressed": String(number === this.selected), onclick: () => this.select(number) },
+      `${number} ${names[kind] ?? kind}, ${place}, ${typeof defect.center_deg === "string" ? defect.center_deg : `${short(defect.center_deg ?? 0, 3)}°`}`,
+    );
   }
 
   /** @param {Request} request */
   #heed(request) {
-    const store = this.owner.store(), type = request.type;
+    const store = this.owner.store(),
+      type = request.type;
     if (type === "undo") this.step(this.owner.undo);
     else if (type === "redo") this.step();
     else if (type === "select") this.select(request.defect);
     else if (type === "begin") this.#begin();
     else if (type === "end") this.#end();
     else if (type === "cancel") this.#cancel();
-    else if (type === "shape") this.#put({ shape: request.shape }, request.s, request.z, this.#gesture ?? this.#begin());
+    else if (type === "shape")
+      this.#put({ shape: request.shape }, request.s, request.z, this.#gesture ?? this.#begin());
     else if (type === "stroke") this.#scratch(request, this.#gesture ?? this.#begin());
     else this.#alter(request);
   }
 
   #begin() {
-    const chosen = this.#defects[this.selected - 1], grid = this.raceway.tool === "brush" && chosen?.shape?.depth_map?.columns ? chosen : null;
+    const chosen = this.#defects[this.selected - 1],
+      grid = this.raceway.tool === "brush" && chosen?.shape?.depth_map?.columns ? chosen : null;
     notice("taken", null);
-    this.#latest = this.#gesture = { id: `!${++this.#gestures}`, index: grid ? this.selected - 1 : null, base: structuredClone(grid), scenario: null, left: false, ended: false };
+    this.#latest = this.#gesture = {
+      id: `!${++this.#gestures}`,
+      index: grid ? this.selected - 1 : null,
+      base: structuredClone(grid),
+      scenario: null,
+      left: false,
+      ended: false,
+    };
     return this.#gesture;
   }
 
@@ -292,8 +421,10 @@ export class DamagePanel {
 
   /** A drag that ends on what is refused leaves nothing, not what was on its way there. */
   #mend() {
-    const one = this.#latest, why = this.#refusal;
-    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario || one.scenario !== this.owner.store().scenario) return false;
+    const one = this.#latest,
+      why = this.#refusal;
+    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario || one.scenario !== this.owner.store().scenario)
+      return false;
     this.#latest = this.#refusal = null;
     this.owner.store().takeBack();
     notice("taken", `Taken back: ${why?.words}`, { bad: true });
@@ -309,19 +440,28 @@ export class DamagePanel {
 
   /** Changes of the selected damage. @param {Request} request */
   #alter(request) {
-    const at = this.selected - 1, store = this.owner.store();
+    const at = this.selected - 1,
+      store = this.owner.store();
     if (!this.#defects[at]) return;
     if (request.type === "delete") {
       this.selected = 0;
-      store.change((s) => { s.defects.splice(at, 1); });
+      store.change((s) => {
+        s.defects.splice(at, 1);
+      });
       this.owner.speak("Damage deleted");
       return;
     }
     store.change((scenario) => {
       const defect = scenario.defects[at];
       if (request.type === "resize") defect.shape = request.shape;
-      if (request.type === "deeper") defect.depth_um = Number(((defect.depth_um ?? this.#depth) * DEEPER ** request.factor).toPrecision(3));
-      if (request.type === "shift") this.#lie(defect, (defect.center_deg + request.degrees) / 360 * this.#turn, (defect.axial_offset_mm ?? 0) + request.z);
+      if (request.type === "deeper")
+        defect.depth_um = Number(((defect.depth_um ?? this.#depth) * DEEPER ** request.factor).toPrecision(3));
+      if (request.type === "shift")
+        this.#lie(
+          defect,
+          ((defect.center_deg + request.degrees) / 360) * this.#turn,
+          (defect.axial_offset_mm ?? 0) + request.z,
+        );
       if (request.type === "move") this.#lie(defect, request.s, request.z);
     }, this.#gesture?.id ?? request.type);
     if (this.#gesture) this.#gesture.scenario = store.scenario;
@@ -371,13 +511,28 @@ export class DamagePanel {
     if (this.#asking) return;
     this.#asking = true;
     while (this.#stroke) {
-      const { request: { tool, points }, gesture: own } = this.#stroke, base = own.base;
+      const {
+          request: { tool, points },
+          gesture: own,
+        } = this.#stroke,
+        base = own.base;
       this.#stroke = null;
-      const origin = base ? [(base.center_deg ?? 0) / 360 * this.#turn, base.axial_offset_mm ?? 0] : [0, 0];
-      const points_mm = Float64Array.from(points.flatMap(([s, z]) => [s - origin[0], z - origin[1]])), width_mm = this.raceway.penWidth;
+      const origin = base ? [((base.center_deg ?? 0) / 360) * this.#turn, base.axial_offset_mm ?? 0] : [0, 0];
+      const points_mm = Float64Array.from(points.flatMap(([s, z]) => [s - origin[0], z - origin[1]])),
+        width_mm = this.raceway.penWidth;
       try {
-        const got = await this.owner.ask(tool === "pen" ? { do: "scratch", points_mm, width_mm }
-          : { do: "brush", grid: base?.shape ?? null, points_mm, width_mm, depth_um: this.#depth, raise: this.raise.checked });
+        const got = await this.owner.ask(
+          tool === "pen"
+            ? { do: "scratch", points_mm, width_mm }
+            : {
+                do: "brush",
+                grid: base?.shape ?? null,
+                points_mm,
+                width_mm,
+                depth_um: this.#depth,
+                raise: this.raise.checked,
+              },
+        );
         const [s, z] = got.center_mm ?? [0, 0];
         this.#put({ shape: got.shape }, origin[0] + s, origin[1] + z, own);
       } catch (error) {
@@ -389,7 +544,7 @@ export class DamagePanel {
 
   /** Damage from a file, in the middle of what is shown. @param {any} shape @param {number} [depth] */
   place(shape, depth) {
-    const load = this.surface === "outer-raceway" ? (this.raceway.loadDeg ?? 0) / 360 * this.#turn : 0;
+    const load = this.surface === "outer-raceway" ? ((this.raceway.loadDeg ?? 0) / 360) * this.#turn : 0;
     this.#put({ shape, ...(depth ? { depth_um: depth } : {}) }, load, 0, this.#begin());
     this.#gesture = null;
     this.update();

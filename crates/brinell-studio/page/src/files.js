@@ -10,7 +10,19 @@ import { LINK_LIMIT, pathOf, toLink } from "./state.js";
 
 const LARGEST = 1 << 28;
 const KINDS = /** @type {const} */ ({ photo: "image", svg: "svg", depth: "depth_map" });
-const SHOWN = new Set(["mm_per_pixel", "mm_per_unit", "ds_mm", "dz_mm", "unit", "threshold", "threshold_um", "rolling_direction", "invert", "remove_form", "fill"]);
+const SHOWN = new Set([
+  "mm_per_pixel",
+  "mm_per_unit",
+  "ds_mm",
+  "dz_mm",
+  "unit",
+  "threshold",
+  "threshold_um",
+  "rolling_direction",
+  "invert",
+  "remove_form",
+  "fill",
+]);
 
 /** @param {Blob} blob @param {string} name */
 export function download(blob, name) {
@@ -33,14 +45,19 @@ export function kindsOf(name) {
 /** @param {string} name @param {string[]} kinds */
 export async function chosenKind(name, kinds) {
   if (kinds.length === 1) return kinds[0];
-  const words = /** @type {Record<string, string>} */ ({ photo: "a photo of damage", depth: "a depth map of damage", signal: "a measured signal" });
+  const words = /** @type {Record<string, string>} */ ({
+    photo: "a photo of damage",
+    depth: "a depth map of damage",
+    signal: "a measured signal",
+  });
   const select = h("select", {}, ...kinds.map((k) => h("option", { value: k }, words[k])));
   return (await asked(name, [line("This file is", select, "", "")], "Open")) ? select.value : null;
 }
 
 /** @param {File} file */
 export async function bytesOf(file) {
-  if (file.size > LARGEST) throw new Error(`${file.name}: ${short(file.size / (1 << 20))} MiB is more than the page can hold`);
+  if (file.size > LARGEST)
+    throw new Error(`${file.name}: ${short(file.size / (1 << 20))} MiB is more than the page can hold`);
   return new Uint8Array(await file.arrayBuffer());
 }
 
@@ -48,15 +65,22 @@ export async function bytesOf(file) {
 function preview(shape) {
   const polygons = shape?.outline?.polygons_mm ?? (shape?.outline?.points_mm ? [shape.outline.points_mm] : []);
   if (!polygons.length) return null;
-  const points = polygons.flat(), s = points.map((/** @type {number[]} */ p) => p[0]), z = points.map((/** @type {number[]} */ p) => -p[1]);
-  const low = (/** @type {number[]} */ list) => list.reduce((a, b) => Math.min(a, b)), high = (/** @type {number[]} */ list) => list.reduce((a, b) => Math.max(a, b));
+  const points = polygons.flat(),
+    s = points.map((/** @type {number[]} */ p) => p[0]),
+    z = points.map((/** @type {number[]} */ p) => -p[1]);
+  const low = (/** @type {number[]} */ list) => list.reduce((a, b) => Math.min(a, b)),
+    high = (/** @type {number[]} */ list) => list.reduce((a, b) => Math.max(a, b));
   const [l, t, w, v] = [low(s), low(z), high(s) - low(s), high(z) - low(z)];
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg"), path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg"),
+    path = document.createElementNS("http://www.w3.org/2000/svg", "path");
   svg.setAttribute("viewBox", `${l - 0.1 * w} ${t - 0.1 * v} ${1.2 * w} ${1.2 * v}`);
   svg.setAttribute("class", "preview");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", "The outline that was found");
-  path.setAttribute("d", polygons.map((/** @type {number[][]} */ p) => `M${p.map(([a, b]) => `${a} ${-b}`).join("L")}Z`).join(""));
+  path.setAttribute(
+    "d",
+    polygons.map((/** @type {number[][]} */ p) => `M${p.map(([a, b]) => `${a} ${-b}`).join("L")}Z`).join(""),
+  );
   svg.append(path);
   return svg;
 }
@@ -72,10 +96,13 @@ function preview(shape) {
 export async function shapeOf(ask, schema, kind, name, bytes) {
   /** @type {Record<string, any>} */
   const options = {};
-  let got = /** @type {any} */ (null), turn = 0, agreed = false;
+  let got = /** @type {any} */ (null),
+    turn = 0,
+    agreed = false;
   /** Keys that were filled in: only of these, or once all is agreed to, a problem is an error; before, it is what is still needed. */
   const filled = new Set();
-  const told = h("div", { role: "status" }), trouble = h("p", { className: "trouble", role: "alert" });
+  const told = h("div", { role: "status" }),
+    trouble = h("p", { className: "trouble", role: "alert" });
   const look = async () => {
     const mine = ++turn;
     try {
@@ -83,30 +110,62 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
       if (mine !== turn) return;
       got = answer;
       trouble.textContent = "";
-      told.replaceChildren(...[preview(answer.shape),
-        h("p", {}, `${short(answer.length_mm, 4)} mm long, ${short(answer.width_mm, 4)} mm wide, ${short(answer.area_mm2, 4)} mm²`),
-          ...(answer.notes ?? []).map((/** @type {string} */ n) => h("p", { className: "note" }, n))].filter((n) => n !== null));
+      told.replaceChildren(
+        ...[
+          preview(answer.shape),
+          h(
+            "p",
+            {},
+            `${short(answer.length_mm, 4)} mm long, ${short(answer.width_mm, 4)} mm wide, ${short(answer.area_mm2, 4)} mm²`,
+          ),
+          ...(answer.notes ?? []).map((/** @type {string} */ n) => h("p", { className: "note" }, n)),
+        ].filter((n) => n !== null),
+      );
     } catch (error) {
       if (mine !== turn) return;
       got = null;
       // The engine reads it as the first damage of a scenario of its own.
-      const problems = error instanceof Refused ? error.problems.map((p) => ({ ...p, message: p.message.replace(/^defects\.0\.shape\.\w+\.(\w+)(.*?) \(defect 1\)/, "$1$2") })) : [{ key: null, message: String(error) }];
-      const open = (/** @type {{key: string | null}} */ p) => !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
-      told.replaceChildren(...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)));
-      trouble.textContent = problems.filter((p) => !open(p)).map((p) => p.message).join(" ");
+      const problems =
+        error instanceof Refused
+          ? error.problems.map((p) => ({
+              ...p,
+              message: p.message.replace(/^defects\.0\.shape\.\w+\.(\w+)(.*?) \(defect 1\)/, "$1$2"),
+            }))
+          : [{ key: null, message: String(error) }];
+      const open = (/** @type {{key: string | null}} */ p) =>
+        !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
+      told.replaceChildren(
+        ...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)),
+      );
+      trouble.textContent = problems
+        .filter((p) => !open(p))
+        .map((p) => p.message)
+        .join(" ");
     }
   };
-  const fields = fileSpecs(schema, KINDS[kind]).map((s) => new Field(s, (spec, value) => {
-    spec.write(options, value);
-    filled.add(String(spec.path.at(-1)));
-    look();
-  }, { range: false }));
-  const first = fields.filter((f) => SHOWN.has(String(f.spec.path.at(-1)))), rest = fields.filter((f) => !first.includes(f));
+  const fields = fileSpecs(schema, KINDS[kind]).map(
+    (s) =>
+      new Field(
+        s,
+        (spec, value) => {
+          spec.write(options, value);
+          filled.add(String(spec.path.at(-1)));
+          look();
+        },
+        { range: false },
+      ),
+  );
+  const first = fields.filter((f) => SHOWN.has(String(f.spec.path.at(-1)))),
+    rest = fields.filter((f) => !first.includes(f));
   for (const field of fields) field.update(options, {});
   look();
   const more = h("details", {}, h("summary", {}, "More"), ...rest.map((f) => f.element));
   for (;;) {
-    const form = await asked(`${name}: damage`, [told, trouble, ...first.map((f) => f.element), more], "Place on the raceway");
+    const form = await asked(
+      `${name}: damage`,
+      [told, trouble, ...first.map((f) => f.element), more],
+      "Place on the raceway",
+    );
     if (!form) {
       turn++;
       return null;
@@ -127,7 +186,9 @@ export function droppable(take) {
     e.preventDefault();
     body.classList.add("drop");
   });
-  body.addEventListener("dragleave", (e) => { if (!e.relatedTarget) body.classList.remove("drop"); });
+  body.addEventListener("dragleave", (e) => {
+    if (!e.relatedTarget) body.classList.remove("drop");
+  });
   body.addEventListener("drop", (e) => {
     body.classList.remove("drop");
     if (!files(e)) return;
@@ -151,36 +212,62 @@ export async function savePictures(views, name, format) {
 
 /** The Save menu. @param {[string, () => void][]} items @param {string} note */
 export function saveMenu(items, note) {
-  const button = byId("save"), list = byId("save-list");
+  const button = byId("save"),
+    list = byId("save-list");
   const close = () => {
     list.hidden = true;
     button.setAttribute("aria-expanded", "false");
   };
-  list.replaceChildren(...items.map(([text, act]) => h("button", { type: "button", onclick: () => { close(); act(); } }, text)), h("p", { className: "note" }, note));
+  list.replaceChildren(
+    ...items.map(([text, act]) =>
+      h(
+        "button",
+        {
+          type: "button",
+          onclick: () => {
+            close();
+            act();
+          },
+        },
+        text,
+      ),
+    ),
+    h("p", { className: "note" }, note),
+  );
   button.onclick = () => {
     list.hidden = !list.hidden;
     button.setAttribute("aria-expanded", String(!list.hidden));
     if (!list.hidden) list.querySelector("button")?.focus();
   };
   list.addEventListener("keydown", (/** @type {KeyboardEvent} */ e) => {
-    const all = [...list.querySelectorAll("button")], at = all.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+    const all = [...list.querySelectorAll("button")],
+      at = all.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
     if (e.key === "Escape") {
       close();
       button.focus();
     } else if (e.key === "ArrowDown") all[(at + 1) % all.length].focus();
     else if (e.key === "ArrowUp") all[(at + all.length - 1) % all.length].focus();
   });
-  document.addEventListener("pointerdown", (e) => { if (!list.contains(/** @type {Node} */ (e.target)) && e.target !== button) close(); });
+  document.addEventListener("pointerdown", (e) => {
+    if (!list.contains(/** @type {Node} */ (e.target)) && e.target !== button) close();
+  });
 }
 
 /** A link that carries a scenario, into the address and the clipboard. @param {string} toml @param {() => void} save  where it is too long for a link */
 export async function share(toml, save) {
   const link = await toLink(toml);
-  if (link.length > LINK_LIMIT) return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
-    { actions: [["Save the scenario", save]] });
+  if (link.length > LINK_LIMIT)
+    return notice(
+      "link",
+      `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
+      { actions: [["Save the scenario", save]] },
+    );
   history.replaceState(null, "", link);
-  const address = location.href, field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
-  const whose = hasToken() ? " It opens on this machine while this server runs. In another studio it opens with the part from # on behind that studio's address." : "";
+  const address = location.href,
+    field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
+  const whose = hasToken()
+    ? " It opens on this machine while this server runs. In another studio it opens with the part from # on behind that studio's address."
+    : "";
   let words = `A link to this bearing.${whose}`;
   try {
     await navigator.clipboard.writeText(address);

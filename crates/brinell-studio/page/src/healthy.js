@@ -3,7 +3,10 @@ import { Pace } from "./pace.js";
 
 /** @typedef {import("./answers.js").Engine} Engine */
 
-const WAIT_MS = 900, ROWS = 512, SAMPLES = 10240, WINDOW = 8192;
+const WAIT_MS = 900,
+  ROWS = 512,
+  SAMPLES = 10240,
+  WINDOW = 8192;
 
 export class Healthy {
   /** @type {{x: Float32Array, rate_hz: number, spectrum: any, envelope: any} | null} */
@@ -25,7 +28,8 @@ export class Healthy {
   /** Some time after the last edit of anything but damage. @param {any} scenario */
   want(scenario) {
     if (!scenario.defects?.length || !this.free()) return;
-    const bare = { ...scenario, defects: [] }, key = JSON.stringify(bare);
+    const bare = { ...scenario, defects: [] },
+      key = JSON.stringify(bare);
     if (key === this.#key) return;
     this.#key = key;
     this.curves = null;
@@ -45,9 +49,12 @@ export class Healthy {
     };
     try {
       engine = await this.#start();
-      const opened = await ask({ do: "open", scenario, carry: false }), x = new Float32Array(SAMPLES), pace = new Pace();
+      const opened = await ask({ do: "open", scenario, carry: false }),
+        x = new Float32Array(SAMPLES),
+        pace = new Pace();
       for (let end = 0; end < SAMPLES;) {
-        const from = performance.now(), got = await ask({ do: "advance", rows: ROWS, steps: pace.steps, frames: false });
+        const from = performance.now(),
+          got = await ask({ do: "advance", rows: ROWS, steps: pace.steps, frames: false });
         pace.took(performance.now() - from, got.x.length < ROWS && !got.done);
         x.set(got.x.subarray(0, SAMPLES - got.first), got.first);
         end = got.first + got.x.length;

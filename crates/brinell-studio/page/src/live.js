@@ -8,9 +8,13 @@ import { Pace } from "./pace.js";
 /** @typedef {"loading" | "live" | "paused" | "running" | "done" | "lost"} State */
 /** @typedef {(kind: string, data?: any) => void} Report */
 
-const ROWS = 256, RUN_ROWS = 1024, FIRST_WINDOW = 1024, LAST_WINDOW = 32768;
+const ROWS = 256,
+  RUN_ROWS = 1024,
+  FIRST_WINDOW = 1024,
+  LAST_WINDOW = 32768;
 // Samples between two sets of indicators. A verdict takes as long as many slices, so it is given anew each time their number has doubled.
-const SENTENCE = 8192, LONGEST_SENTENCE = 65536;
+const SENTENCE = 8192,
+  LONGEST_SENTENCE = 65536;
 // An answer that takes longer is waited for in sight.
 const LATE_MS = 1000;
 // After so long without an edit the scenario's own tables of damage are made.
@@ -66,7 +70,7 @@ export class Live {
   /** @param {Record<string, unknown>} request */
   async ask(request) {
     let late = 0;
-    const timer = setTimeout(() => this.#wait(late = 1), LATE_MS);
+    const timer = setTimeout(() => this.#wait((late = 1)), LATE_MS);
     try {
       return await (await this.engine).ask({ slot: this.slot, ...request });
     } catch (error) {
@@ -85,17 +89,27 @@ export class Live {
   }
 
   /** Whether an answer is late, or a run waits for tables. */
-  get working() { return this.#late > 0 || this.#waits; }
+  get working() {
+    return this.#late > 0 || this.#waits;
+  }
   /** Whether it is a run from t = 0 to its end. */
-  get whole() { return this.#run; }
+  get whole() {
+    return this.#run;
+  }
   /** The edit that the engine has neither opened nor refused yet. */
-  get unanswered() { return this.#unanswered; }
+  get unanswered() {
+    return this.#unanswered;
+  }
 
   /** The edit that is opened next: other tables do not take the picture of a paused bearing away. */
-  get #due() { return this.#edit?.own && this.#paused ? null : this.#edit; }
+  get #due() {
+    return this.#edit?.own && this.#paused ? null : this.#edit;
+  }
 
   /** Whether a run from t = 0 waits for the scenario's own tables. */
-  get #waits() { return this.state === "running" && this.#making !== null; }
+  get #waits() {
+    return this.state === "running" && this.#making !== null;
+  }
 
   /** The run from t = 0 is not gone on with. */
   #leave() {
@@ -129,7 +143,10 @@ export class Live {
 
   /** Resolves when no edit waits for the engine or is being made by it: whether the last one has been opened or refused, and is not one that lost the engine. */
   async settled() {
-    if (!this.#closed && (this.#due || this.#opening || this.#urgent)) await new Promise((done) => { this.#settling.push(() => done(null)); });
+    if (!this.#closed && (this.#due || this.#opening || this.#urgent))
+      await new Promise((done) => {
+        this.#settling.push(() => done(null));
+      });
     return !this.#unanswered;
   }
 
@@ -165,10 +182,17 @@ export class Live {
     this.#closed = true;
     this.#making?.abort();
     this.#wake();
-    this.engine.then((engine) => { if (!engine.slots) engine.close(); }, () => {});
+    this.engine.then(
+      (engine) => {
+        if (!engine.slots) engine.close();
+      },
+      () => {},
+    );
   }
 
-  async kill() { (await this.engine).kill(); }
+  async kill() {
+    (await this.engine).kill();
+  }
 
   /** @param {State} state */
   #say(state, data = {}) {
@@ -182,8 +206,17 @@ export class Live {
       if (!this.#opening && !this.#urgent) this.#settle();
       try {
         if (this.#due) await this.#open(this.#due);
-        else if (!this.opened || this.#paused || this.#urgent || this.state === "done" || this.#waits
-          || this.state === "lost") await new Promise((done) => { this.#wake = () => done(null); });
+        else if (
+          !this.opened ||
+          this.#paused ||
+          this.#urgent ||
+          this.state === "done" ||
+          this.#waits ||
+          this.state === "lost"
+        )
+          await new Promise((done) => {
+            this.#wake = () => done(null);
+          });
         else await this.#slice();
       } catch (error) {
         if (this.#closed) return;
@@ -196,17 +229,24 @@ export class Live {
         if (error instanceof Lost) await this.#recover(error);
         else {
           this.#paused = true;
-          this.report("problems", { problems: error instanceof Refused ? error.problems : [{ key: null, line: null, message: String(error) }], edit: null });
+          this.report("problems", {
+            problems: error instanceof Refused ? error.problems : [{ key: null, line: null, message: String(error) }],
+            edit: null,
+          });
           this.#say("paused");
         }
       }
     }
   }
 
-  #settle() { for (const done of this.#settling.splice(0)) done(); }
+  #settle() {
+    for (const done of this.#settling.splice(0)) done();
+  }
 
   /** @param {Edit} edit */
-  #answered(edit) { if (!edit.again && edit.made >= (this.#unanswered?.made ?? Infinity)) this.#unanswered = null; }
+  #answered(edit) {
+    if (!edit.again && edit.made >= (this.#unanswered?.made ?? Infinity)) this.#unanswered = null;
+  }
 
   /** @param {Edit} edit */
   async #open(edit) {
@@ -248,8 +288,12 @@ export class Live {
 
   /** Makes the tables of the opened bearing beside it; then it goes on by them. A run from t = 0 waits. @param {Scenario} scenario */
   async #makeTables(scenario) {
-    const making = this.#making = new AbortController(), left = making.signal;
-    if (!this.#run) await new Promise((done) => { setTimeout(done, DRAWN_MS); });
+    const making = (this.#making = new AbortController()),
+      left = making.signal;
+    if (!this.#run)
+      await new Promise((done) => {
+        setTimeout(done, DRAWN_MS);
+      });
     if (left.aborted) return;
     let own = false;
     try {
@@ -268,7 +312,10 @@ export class Live {
   }
 
   async #slice() {
-    const opened = this.opened, rows = this.#run ? RUN_ROWS : ROWS, { steps } = this.#pace, from = performance.now();
+    const opened = this.opened,
+      rows = this.#run ? RUN_ROWS : ROWS,
+      { steps } = this.#pace,
+      from = performance.now();
     const got = await this.ask({ do: "advance", rows, steps, frames: true });
     this.#pace.took(performance.now() - from, got.x.length < rows && !got.done);
     if (opened !== this.opened) return;

@@ -20,7 +20,10 @@ import { storedRun } from "./stored.js";
 
 /** @typedef {import("./side.js").Show} Show */
 
-const START = "rectangle", KEPT_MS = 400, SLOW_READOUT_MS = 200, PASSAGE_MS = 120;
+const START = "rectangle",
+  KEPT_MS = 400,
+  SLOW_READOUT_MS = 200,
+  PASSAGE_MS = 120;
 
 class Studio {
   /** @type {any} */
@@ -45,21 +48,35 @@ class Studio {
 
   constructor() {
     this.panel = new DamagePanel(byId("damage"), {
-      undo: () => this.#undo(), store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }), ask: (request) => this.side.live.urgent(request), schema: () => this.about?.schema,
-      changed: (spec, value, live) => this.#change(spec, value, live), rebuilt: () => this.#dirty.add("fields"), speak, failed: (error) => this.#failed(error),
+      undo: () => this.#undo(),
+      store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }),
+      ask: (request) => this.side.live.urgent(request),
+      schema: () => this.about?.schema,
+      changed: (spec, value, live) => this.#change(spec, value, live),
+      rebuilt: () => this.#dirty.add("fields"),
+      speak,
+      failed: (error) => this.#failed(error),
     });
     this.curves = new CurveViews();
     this.bearing = /** @type {any} */ (document.querySelector("brinell-bearing"));
     this.passage = /** @type {any} */ (document.querySelector("brinell-passage"));
     this.sound = /** @type {any} */ (document.querySelector("brinell-sound"));
     this.saving = new Saving({
-      side: () => this.side, fields: () => this.#fields, views: () => [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage],
-      sound: () => this.sound, undo: () => this.#undoRefused(), failed: (error) => this.#failed(error),
+      side: () => this.side,
+      fields: () => this.#fields,
+      views: () => [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage],
+      sound: () => this.sound,
+      undo: () => this.#undoRefused(),
+      failed: (error) => this.#failed(error),
     });
   }
 
-  get side() { return this.sides[this.active]; }
-  get other() { return this.beside ? this.sides[1 - this.active] : undefined; }
+  get side() {
+    return this.sides[this.active];
+  }
+  get other() {
+    return this.beside ? this.sides[1 - this.active] : undefined;
+  }
 
   /** @param {Promise<() => Promise<import("./answers.js").Engine>>} starting */
   async begin(starting) {
@@ -68,18 +85,26 @@ class Studio {
     engine.catch(() => {});
     const another = async () => (await starting)();
     this.start = another;
-    let taken = false, slots = false;
+    let taken = false,
+      slots = false;
     const a = this.#add("A", () => {
       const first = !taken;
       taken = true;
       return first ? engine : another();
     });
     // An engine of many slots has two of them: B outranks the healthy bearing.
-    this.healthy = new Healthy(another, 1, () => !(slots && this.sides.length > 1), () => this.#dirty.add("curves"));
+    this.healthy = new Healthy(
+      another,
+      1,
+      () => !(slots && this.sides.length > 1),
+      () => this.#dirty.add("curves"),
+    );
     // A page that holds a stored run can be used, and shows it, before the engine is there.
     const stored = await storedRun();
-    this.about = stored?.about ?? await (await engine).ask({ do: "about" });
-    this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) => this.#change(spec, value, live));
+    this.about = stored?.about ?? (await (await engine).ask({ do: "about" }));
+    this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) =>
+      this.#change(spec, value, live),
+    );
     this.#fill();
     this.#bind();
     const toml = await this.#first(a, stored?.toml ?? (await (await engine).ask({ do: "example", name: START })).toml);
@@ -97,7 +122,12 @@ class Studio {
     if (side.opened) return;
     this.still = still;
     side.store.replace(opened.scenario);
-    Object.assign(side, { opened, moments, damage, verdict: { headline: `Stored run, shown while the engine loads. ${headline}` } });
+    Object.assign(side, {
+      opened,
+      moments,
+      damage,
+      verdict: { headline: `Stored run, shown while the engine loads. ${headline}` },
+    });
     this.#opened({ opened, edit: { toml: "" } });
     this.#damaged(damage);
     byId("state").textContent = "stored run, engine loading";
@@ -112,7 +142,8 @@ class Studio {
 
   /** The scenario of the link, else that of a page around this one, else what was here last time, else an example. @param {Side} side @param {string} example its text */
   async #first(side, example) {
-    const { toml: last, edit } = remembered(), now = edit && await side.live.ask({ do: "normal", scenario: JSON.parse(edit) }).catch(() => null);
+    const { toml: last, edit } = remembered(),
+      now = edit && (await side.live.ask({ do: "normal", scenario: JSON.parse(edit) }).catch(() => null));
     const before = now?.toml ?? last;
     const given = /** @type {{brinellScenario?: string}} */ (globalThis).brinellScenario;
     let toml = given ?? before ?? example;
@@ -120,7 +151,10 @@ class Studio {
       const linked = await fromLink(location.hash);
       if (linked !== null) {
         toml = linked;
-        if (before !== null && before !== linked) notice("before", "This is the bearing of the link.", { actions: [["Back to my last one", () => this.load(before)]] });
+        if (before !== null && before !== linked)
+          notice("before", "This is the bearing of the link.", {
+            actions: [["Back to my last one", () => this.load(before)]],
+          });
       }
     } catch (error) {
       notice("link", `The link holds no scenario: ${error instanceof Error ? error.message : error}`, { bad: true });
@@ -133,12 +167,17 @@ class Studio {
   }
 
   #fill() {
-    startList(this.about, { side: () => this.side, load: (toml) => this.load(toml), failed: (error) => this.#failed(error) });
+    startList(this.about, {
+      side: () => this.side,
+      load: (toml) => this.load(toml),
+      failed: (error) => this.#failed(error),
+    });
     this.saving.bind();
   }
 
   #bind() {
-    const on = (/** @type {string} */ id, /** @type {(e: MouseEvent) => void} */ act) => byId(id).addEventListener("click", act);
+    const on = (/** @type {string} */ id, /** @type {(e: MouseEvent) => void} */ act) =>
+      byId(id).addEventListener("click", act);
     on("open", () => byId("file").click());
     byId("file").addEventListener("change", () => {
       this.take([...byId("file").files]);
@@ -146,7 +185,12 @@ class Studio {
     });
     on("pause", () => this.#pause());
     // The second half of a double click cancels nothing.
-    on("run", (e) => e.detail > 1 || (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()));
+    on(
+      "run",
+      (e) =>
+        e.detail > 1 ||
+        (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()),
+    );
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -169,8 +213,10 @@ class Studio {
 
   /** @param {import("./schema.js").Spec} spec @param {any} value @param {boolean} live */
   #change(spec, value, live) {
-    const { store } = this.side, now = spec.read(store.scenario);
-    if (JSON.stringify(now) !== JSON.stringify(value)) store.change((s) => spec.write(s, value, this.side.opened?.all), `${spec.label} ${spec.path.join(".")}`);
+    const { store } = this.side,
+      now = spec.read(store.scenario);
+    if (JSON.stringify(now) !== JSON.stringify(value))
+      store.change((s) => spec.write(s, value, this.side.opened?.all), `${spec.label} ${spec.path.join(".")}`);
     // What is typed may be the value that is there, in another unit.
     else this.#dirty.add("fields");
     if (!live) store.seal();
@@ -182,8 +228,14 @@ class Studio {
     if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (["state", "problems", "recovered", "working", "left"].includes(kind)) this.#dirty.add("state");
-    if (kind === "lost") notice("lost", data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`, { bad: !!data.gone });
-    if (kind === "state" && data.state === "lost" && !document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine was lost again and again, so none runs. Start again tries another.");
+    if (kind === "lost")
+      notice(
+        "lost",
+        data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`,
+        { bad: !!data.gone },
+      );
+    if (kind === "state" && data.state === "lost" && !document.querySelector('[data-kind="lost"].bad'))
+      notice("lost", "The engine was lost again and again, so none runs. Start again tries another.");
     if (kind === "recovered") this.#recovered();
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
@@ -220,20 +272,26 @@ class Studio {
   }
 
   /** The address does not name another bearing than A, which it opens. @param {Side} side that is edited */
-  #unlink(side) { if (side === this.sides[0] && location.hash.startsWith("#s=")) history.replaceState(null, "", location.pathname + location.search); }
+  #unlink(side) {
+    if (side === this.sides[0] && location.hash.startsWith("#s="))
+      history.replaceState(null, "", location.pathname + location.search);
+  }
 
   #recovered() {
     speak("The engine was lost and runs again");
     // A server that answers again is not said to be gone.
-    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine answers again: the bearing was started anew.");
+    if (document.querySelector('[data-kind="lost"].bad'))
+      notice("lost", "The engine answers again: the bearing was started anew.");
   }
 
   /** What tells B from A, in the engine's words: of the latest verdicts of both. */
   async #differ() {
-    const [a, b] = this.sides.map((s) => s.verdict), before = this.difference;
+    const [a, b] = this.sides.map((s) => s.verdict),
+      before = this.difference;
     this.difference = "";
     try {
-      if (this.beside && a?.damage && b?.damage) this.difference = (await this.side.live.ask({ do: "differ", a, b })).headline;
+      if (this.beside && a?.damage && b?.damage)
+        this.difference = (await this.side.live.ask({ do: "differ", a, b })).headline;
     } catch {
       // An engine that is lost gives new verdicts when it runs again.
     }
@@ -289,8 +347,13 @@ class Studio {
       return;
     }
     if (side !== this.side) return;
-    const words = problems.map((/** @type {any} */ p) => `${p.line && edit?.toml !== undefined ? `line ${p.line}: ` : ""}${p.message}`).join(" ");
-    if (edit?.toml !== undefined || !edit) notice("refused", edit?.file ? `${edit.file} is refused, and the bearing before it runs on. ${words}` : words, { bad: true });
+    const words = problems
+      .map((/** @type {any} */ p) => `${p.line && edit?.toml !== undefined ? `line ${p.line}: ` : ""}${p.message}`)
+      .join(" ");
+    if (edit?.toml !== undefined || !edit)
+      notice("refused", edit?.file ? `${edit.file} is refused, and the bearing before it runs on. ${words}` : words, {
+        bad: true,
+      });
     else if (!this.panel.refused(edit.scenario, words)) {
       this.#dirty.add("fields");
       this.#lay(side);
@@ -310,33 +373,52 @@ class Studio {
   }
 
   /** One step back; from what a field does not read, to what it held. */
-  #undo() { if (!this.#restored()) this.side.store.undo(); }
+  #undo() {
+    if (!this.#restored()) this.side.store.undo();
+  }
 
   #undoRefused() {
     this.#restored();
     this.side.store.undo();
   }
 
-  get #fields() { return [...this.panel.fields, ...(this.controls?.fields ?? [])]; }
+  get #fields() {
+    return [...this.panel.fields, ...(this.controls?.fields ?? [])];
+  }
 
   /** @param {Side} side */
   #lay(side) {
-    const problems = side.problems.map((p) => ({ ...p, path: pathOf(p.key) })), about = problems.find((p) => p.path[0] === "defects" && typeof p.path[1] === "number");
+    const problems = side.problems.map((p) => ({ ...p, path: pathOf(p.key) })),
+      about = problems.find((p) => p.path[0] === "defects" && typeof p.path[1] === "number");
     // The damage that is refused is the one to look at.
-    if (about && this.panel.selected !== Number(about.path[1]) + 1 && side.store.scenario.defects?.[Number(about.path[1])]) this.panel.select(Number(about.path[1]) + 1);
+    if (
+      about &&
+      this.panel.selected !== Number(about.path[1]) + 1 &&
+      side.store.scenario.defects?.[Number(about.path[1])]
+    )
+      this.panel.select(Number(about.path[1]) + 1);
     const rest = lay(this.#fields, problems);
-    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => this.#undoRefused()]] });
+    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, {
+      bad: true,
+      actions: [["Undo", () => this.#undoRefused()]],
+    });
   }
 
   /** @param {unknown} error @param {string} [file] what it is about */
   #failed(error, file = "") {
-    const words = error instanceof Refused ? error.problems.map((p) => p.message).join(" ") : error instanceof Error ? error.message : String(error);
+    const words =
+      error instanceof Refused
+        ? error.problems.map((p) => p.message).join(" ")
+        : error instanceof Error
+          ? error.message
+          : String(error);
     notice("failed", words.includes(file) ? words : `${file}: ${words}`, { bad: true });
   }
 
   /** Draws what came last, once a frame. */
   #draw() {
-    const side = this.side, dirty = this.#dirty;
+    const side = this.side,
+      dirty = this.#dirty;
     if (!side?.opened || !dirty.size) return;
     const now = performance.now();
     if (dirty.delete("fields")) {
@@ -346,7 +428,8 @@ class Studio {
     }
     if (dirty.delete("state") && side.live.opened) this.#state();
     const shown = /** @type {Side} */ (/** @type {unknown} */ (this.still ?? side));
-    if (dirty.has("curves") && this.curves.draw(shown, this.other, this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
+    if (dirty.has("curves") && this.curves.draw(shown, this.other, this.healthy?.curves ?? null, this.measured, now))
+      dirty.delete("curves");
     if (dirty.has("readout") && now - this.#read > SLOW_READOUT_MS) {
       dirty.delete("readout");
       this.#read = now;
@@ -355,14 +438,28 @@ class Studio {
   }
 
   #state() {
-    const side = this.side, { state } = side.live, bad = side.problems.length > 0, node = byId("state");
-    const words = state === "lost" ? "engine lost" : side.live.working ? "working" : state === "running" ? `running ${side.percent} %` : state;
-    node.textContent = words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
+    const side = this.side,
+      { state } = side.live,
+      bad = side.problems.length > 0,
+      node = byId("state");
+    const words =
+      state === "lost"
+        ? "engine lost"
+        : side.live.working
+          ? "working"
+          : state === "running"
+            ? `running ${side.percent} %`
+            : state;
+    node.textContent =
+      words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
     node.title = side.opened.quick ? "Damage acts by quick tables until the scenario's own are made" : "";
     node.dataset.state = state;
     node.toggleAttribute("data-bad", bad);
-    byId("run").textContent = side.live.whole ? "Cancel" : `Run ${short(side.live.opened.samples / side.live.opened.rate_hz)} s`;
-    byId("pause").textContent = state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
+    byId("run").textContent = side.live.whole
+      ? "Cancel"
+      : `Run ${short(side.live.opened.samples / side.live.opened.rate_hz)} s`;
+    byId("pause").textContent =
+      state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
     this.panel.raceway.frozen = state === "paused" || state === "done" || state === "lost";
   }
 
@@ -378,14 +475,31 @@ class Studio {
     const target = /** @type {HTMLElement} */ (e.target);
     if (e.key === "?" && !target.matches("input[type=text], select, textarea, dialog *")) return showKeys();
     if (e.ctrlKey || e.metaKey) {
-      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *")) return;
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *"))
+        return;
       e.preventDefault();
       return e.shiftKey ? this.panel.step() : this.panel.step(() => this.#undo());
     }
-    if (e.key === "Escape" && this.side?.live.whole && !target.closest("input, select, textarea, dialog, .list, [role=application]") && !target.tagName.startsWith("BRINELL-")) return this.side.live.live();
-    if (e.altKey || target.closest("input, select, textarea, button, summary, dialog, [role=application]") || target.tagName.startsWith("BRINELL-")) return;
-    const act = /** @type {Record<string, () => void>} */ ({ " ": () => this.#pause(), l: () => this.side.live.live(),
-      h: () => this.sound?.hear?.(!this.sound.hearing), a: () => this.turn(0), b: () => this.turn(1) })[e.key.toLowerCase()];
+    if (
+      e.key === "Escape" &&
+      this.side?.live.whole &&
+      !target.closest("input, select, textarea, dialog, .list, [role=application]") &&
+      !target.tagName.startsWith("BRINELL-")
+    )
+      return this.side.live.live();
+    if (
+      e.altKey ||
+      target.closest("input, select, textarea, button, summary, dialog, [role=application]") ||
+      target.tagName.startsWith("BRINELL-")
+    )
+      return;
+    const act = /** @type {Record<string, () => void>} */ ({
+      " ": () => this.#pause(),
+      l: () => this.side.live.live(),
+      h: () => this.sound?.hear?.(!this.sound.hearing),
+      a: () => this.turn(0),
+      b: () => this.turn(1),
+    })[e.key.toLowerCase()];
     if (!act) return;
     e.preventDefault();
     act();
@@ -424,7 +538,8 @@ class Studio {
 
   /** B starts as a copy of A, in an engine of its own. */
   #second() {
-    const a = this.sides[0], b = this.#add("B", /** @type {any} */ (this.start));
+    const a = this.sides[0],
+      b = this.#add("B", /** @type {any} */ (this.start));
     b.live.edit({ toml: a.opened.toml }, false);
   }
 
@@ -442,7 +557,8 @@ class Studio {
   /** @param {File} file */
   async #open(file) {
     notice("failed", null);
-    const kind = await chosenKind(file.name, kindsOf(file.name)), ask = (/** @type {any} */ request) => this.side.live.ask(request);
+    const kind = await chosenKind(file.name, kindsOf(file.name)),
+      ask = (/** @type {any} */ request) => this.side.live.ask(request);
     if (!kind) return;
     const bytes = await bytesOf(file);
     if (kind === "toml") return this.load(new TextDecoder().decode(bytes), false, file.name);
@@ -451,7 +567,8 @@ class Studio {
       if (got) this.panel.place(got.shape);
       return;
     }
-    const { scenario, toml } = this.side.opened, own = { name: scenario.bearing?.preset ?? "", toml };
+    const { scenario, toml } = this.side.opened,
+      own = { name: scenario.bearing?.preset ?? "", toml };
     /** @type {any} */
     let found = null;
     const beside = (/** @type {boolean} */ on) => {
@@ -483,8 +600,11 @@ async function main() {
     const state = byId("state");
     state.textContent = error instanceof NoWasm ? "no WebAssembly" : "no engine";
     state.dataset.state = "lost";
-    notice("engine", `${String(error instanceof Error ? error.message : error).replace(/\.$/, "")}. The command \`brinell studio\` runs the same page with its own engine.`,
-      { bad: true, stays: true });
+    notice(
+      "engine",
+      `${String(error instanceof Error ? error.message : error).replace(/\.$/, "")}. The command \`brinell studio\` runs the same page with its own engine.`,
+      { bad: true, stays: true },
+    );
   }
 }
 

@@ -33,10 +33,12 @@ export function encode(message) {
     return { $: [kind, at, value.length] };
   });
   const text = new TextEncoder().encode(json);
-  const start = padded(4 + text.length), bytes = new Uint8Array(start + size);
+  const start = padded(4 + text.length),
+    bytes = new Uint8Array(start + size);
   new DataView(bytes.buffer).setUint32(0, text.length, true);
   bytes.set(text, 4);
-  for (const [at, values] of arrays) bytes.set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength), start + at);
+  for (const [at, values] of arrays)
+    bytes.set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength), start + at);
   return bytes;
 }
 
@@ -47,11 +49,13 @@ export function encode(message) {
  */
 export function decode(bytes) {
   const whole = bytes.byteOffset % ALIGN === 0 ? bytes : bytes.slice();
-  const length = new DataView(whole.buffer, whole.byteOffset).getUint32(0, true), start = padded(4 + length);
+  const length = new DataView(whole.buffer, whole.byteOffset).getUint32(0, true),
+    start = padded(4 + length);
   return JSON.parse(new TextDecoder().decode(whole.subarray(4, 4 + length)), (_key, value) => {
     const place = value?.$;
     if (!Array.isArray(place)) return value;
-    const [kind, at, count] = place, Kind = KINDS[/** @type {keyof typeof KINDS} */ (kind)];
+    const [kind, at, count] = place,
+      Kind = KINDS[/** @type {keyof typeof KINDS} */ (kind)];
     return new Kind(whole.buffer, whole.byteOffset + start + at, count);
   });
 }

@@ -1,6 +1,8 @@
 // How many steps of the solver a slice asks for, so that its answer comes within about SLICE_MS whatever a step takes.
 
-const SLICE_MS = 100, FIRST = 512, LEAST = 32;
+const SLICE_MS = 100,
+  FIRST = 512,
+  LEAST = 32;
 
 export class Pace {
   steps = FIRST;

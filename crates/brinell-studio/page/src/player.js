@@ -39,7 +39,13 @@ export class Player {
       const part = (/** @type {Float32Array} */ all) => Array.from(all.subarray(k * n, (k + 1) * n));
       this.#newer.push({
         ring: frames.ring[k],
-        rows: frames.rows.map((/** @type {any} */ r) => ({ cage: r.cage[k], orbit: part(r.orbit), spin: part(r.spin), inner: part(r.inner_n), outer: part(r.outer_n) })),
+        rows: frames.rows.map((/** @type {any} */ r) => ({
+          cage: r.cage[k],
+          orbit: part(r.orbit),
+          spin: part(r.spin),
+          inner: part(r.inner_n),
+          outer: part(r.outer_n),
+        })),
       });
     }
     if (this.#newer.length > KEPT) this.#newer.splice(0, this.#newer.length - KEPT);
@@ -51,12 +57,13 @@ export class Player {
     this.#clip = this.#newer.slice();
     this.#at = 0;
     this.#swap = false;
-    const pitch = 2 * Math.PI / this.#elements, first = now?.rows[0];
+    const pitch = (2 * Math.PI) / this.#elements,
+      first = now?.rows[0];
     if (!first) return;
     // The rollers of the new clip go on where those of the old one were.
     let best = Infinity;
     for (let k = 0; k < Math.min(this.#clip.length - 1, 24); k++) {
-      const off = Math.abs(Math.sin(Math.PI * (this.#clip[k].rows[0].orbit[0] - first.orbit[0]) / pitch));
+      const off = Math.abs(Math.sin((Math.PI * (this.#clip[k].rows[0].orbit[0] - first.orbit[0])) / pitch));
       if (off < best) [best, this.#at] = [off, k];
     }
   }
@@ -70,7 +77,8 @@ export class Player {
       if (this.#newer.length > 8) this.#change();
       else this.#at = clip.length - 1;
     }
-    const k = Math.min(Math.floor(this.#at), this.#clip.length - 1), next = Math.min(k + 1, this.#clip.length - 1);
+    const k = Math.min(Math.floor(this.#at), this.#clip.length - 1),
+      next = Math.min(k + 1, this.#clip.length - 1);
     return between(this.#clip[k], this.#clip[next], this.#at - k);
   }
 }
@@ -79,19 +87,27 @@ export class Player {
 function between(a, b, w) {
   const mix = (/** @type {number} */ x, /** @type {number} */ y) => x + w * (y - x);
   // Angles may be given within a turn.
-  const turn = (/** @type {number} */ x, /** @type {number} */ y) => x + w * Math.atan2(Math.sin(y - x), Math.cos(y - x));
-  const each = (/** @type {number[]} */ x, /** @type {number[]} */ y, /** @type {typeof mix} */ f) => x.map((v, i) => f(v, y[i]));
+  const turn = (/** @type {number} */ x, /** @type {number} */ y) =>
+    x + w * Math.atan2(Math.sin(y - x), Math.cos(y - x));
+  const each = (/** @type {number[]} */ x, /** @type {number[]} */ y, /** @type {typeof mix} */ f) =>
+    x.map((v, i) => f(v, y[i]));
   return {
     ring: turn(a.ring, b.ring),
     rows: a.rows.map((r, i) => {
       const s = b.rows[i];
-      return { cage: turn(r.cage, s.cage), orbit: each(r.orbit, s.orbit, turn), spin: each(r.spin, s.spin, turn), inner: each(r.inner, s.inner, mix),
-        outer: each(r.outer, s.outer, mix) };
+      return {
+        cage: turn(r.cage, s.cage),
+        orbit: each(r.orbit, s.orbit, turn),
+        spin: each(r.spin, s.spin, turn),
+        inner: each(r.inner, s.inner, mix),
+        outer: each(r.outer, s.outer, mix),
+      };
     }),
   };
 }
 
-const BINS = 360, FADE = 0.995;
+const BINS = 360,
+  FADE = 0.995;
 
 /** The largest force at each place of a surface; what was long ago fades. */
 export class Felt {
@@ -115,7 +131,7 @@ export class Felt {
         const force = forces[f * elements + i];
         /** @type {number} */
         const angle = row.orbit[f * elements + i] - (surface === "inner-raceway" ? frames.ring[f] : 0);
-        const bin = Math.floor(((angle / (2 * Math.PI) + 0.5) % 1 + 1) % 1 * BINS) % BINS;
+        const bin = Math.floor(((((angle / (2 * Math.PI) + 0.5) % 1) + 1) % 1) * BINS) % BINS;
         this.forces[bin] = Math.max(this.forces[bin], force);
         this.heaviest = Math.max(this.heaviest, force);
       }

@@ -24,13 +24,25 @@ import { path } from "./views/pen.js";
  * @property {[number, number][]} handles
  */
 
-export const TOP = 34, BOTTOM = 20;
+export const TOP = 34,
+  BOTTOM = 20;
 
 /** @param {Element} element */
 export function colours(element) {
-  const style = getComputedStyle(element), one = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
-  return { ink: one("--ink"), faint: one("--faint"), line: one("--line"), steel: one("--steel"), wash: one("--wash"), blue: one("--blue"), pit: one("--damage"),
-    warn: one("--warn"), panel: one("--ground"), font: style.fontFamily };
+  const style = getComputedStyle(element),
+    one = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
+  return {
+    ink: one("--ink"),
+    faint: one("--faint"),
+    line: one("--line"),
+    steel: one("--steel"),
+    wash: one("--wash"),
+    blue: one("--blue"),
+    pit: one("--damage"),
+    warn: one("--warn"),
+    panel: one("--ground"),
+    font: style.fontFamily,
+  };
 }
 /** @typedef {ReturnType<typeof colours>} Colours */
 
@@ -43,10 +55,12 @@ export const yOf = (scene, z) => middle(scene) - z * scene.view.scale;
 
 /** Copies of a place that lie in view, as the turn closes. @param {Scene} scene @param {number} s @param {number} reach */
 export function copies({ width, view, turn }, s, reach) {
-  const half = width / 2 / view.scale + reach, list = [];
+  const half = width / 2 / view.scale + reach,
+    list = [];
   // Where there is room for more than one turn, each place is shown once.
   if (width / view.scale > turn) return [s - turn * Math.round(s / turn)];
-  for (let k = Math.ceil((view.s - half - s) / turn); k <= Math.floor((view.s + half - s) / turn); k++) list.push(s + k * turn);
+  for (let k = Math.ceil((view.s - half - s) / turn); k <= Math.floor((view.s + half - s) / turn); k++)
+    list.push(s + k * turn);
   return list;
 }
 
@@ -60,16 +74,20 @@ export function draw(g, scene, c) {
   g.clip();
   surface(g, scene, c);
   for (const one of scene.damage) for (const s of copies(scene, one.s, 20)) pit(g, scene, c, one, s);
-  for (const contact of scene.contacts) for (const s of copies(scene, contact.s, scene.half)) roller(g, scene, c, contact, s);
-  for (const one of scene.damage) if (one.defect === scene.selected) for (const s of copies(scene, one.s, 20)) chosen(g, scene, c, one, s);
+  for (const contact of scene.contacts)
+    for (const s of copies(scene, contact.s, scene.half)) roller(g, scene, c, contact, s);
+  for (const one of scene.damage)
+    if (one.defect === scene.selected) for (const s of copies(scene, one.s, 20)) chosen(g, scene, c, one, s);
   marks(g, scene, c);
   g.restore();
 }
 
 /** @param {CanvasRenderingContext2D} g @param {Scene} scene @param {Colours} c */
 function overview(g, scene, c) {
-  const { width, turn, view, damage, contacts, forces, heaviest, load } = scene, top = 16, high = 14;
-  const x = (/** @type {number} */ s) => ((s / turn + 0.5) % 1 + 1) % 1 * width;
+  const { width, turn, view, damage, contacts, forces, heaviest, load } = scene,
+    top = 16,
+    high = 14;
+  const x = (/** @type {number} */ s) => ((((s / turn + 0.5) % 1) + 1) % 1) * width;
   g.fillStyle = c.steel;
   g.fillRect(0, top, width, high);
   g.fillStyle = c.blue;
@@ -77,7 +95,7 @@ function overview(g, scene, c) {
   const bins = forces.length;
   for (let k = 0; k < bins; k++) {
     const tall = heaviest > 0 ? high * Math.min(1, forces[k] / heaviest) : 0;
-    g.fillRect(k / bins * width, top + high - tall, width / bins + 0.5, tall);
+    g.fillRect((k / bins) * width, top + high - tall, width / bins + 0.5, tall);
   }
   g.globalAlpha = 1;
   for (const { s } of contacts) {
@@ -86,12 +104,18 @@ function overview(g, scene, c) {
   }
   for (const one of damage) {
     g.fillStyle = one.defect === scene.selected ? c.blue : c.pit;
-    g.fillRect(x(one.s) - Math.max(2, one.length_mm / turn * width / 2), top + 2, Math.max(4, one.length_mm / turn * width), high - 4);
+    g.fillRect(
+      x(one.s) - Math.max(2, ((one.length_mm / turn) * width) / 2),
+      top + 2,
+      Math.max(4, (one.length_mm / turn) * width),
+      high - 4,
+    );
   }
-  const wide = Math.min(width, width / view.scale / turn * width);
+  const wide = Math.min(width, (width / view.scale / turn) * width);
   g.strokeStyle = c.ink;
   g.lineWidth = 1.5;
-  for (const at of [x(view.s) - width, x(view.s), x(view.s) + width]) g.strokeRect(at - wide / 2 + 0.75, top - 1.25, wide - 1.5, high + 2.5);
+  for (const at of [x(view.s) - width, x(view.s), x(view.s) + width])
+    g.strokeRect(at - wide / 2 + 0.75, top - 1.25, wide - 1.5, high + 2.5);
   g.fillStyle = c.faint;
   g.font = `11px ${c.font}`;
   g.textBaseline = "alphabetic";
@@ -102,16 +126,24 @@ function overview(g, scene, c) {
   if (load === null) return;
   const at = x(load);
   g.fillStyle = c.warn;
-  path(g, [[at - 5, top - 3], [at + 5, top - 3], [at, top + 5]]);
+  path(g, [
+    [at - 5, top - 3],
+    [at + 5, top - 3],
+    [at, top + 5],
+  ]);
   g.fill();
 }
 
 /** @param {CanvasRenderingContext2D} g @param {Scene} scene @param {Colours} c */
 function surface(g, scene, c) {
-  const { width, height, across, view, turn } = scene, up = yOf(scene, across / 2), down = yOf(scene, -across / 2);
+  const { width, height, across, view, turn } = scene,
+    up = yOf(scene, across / 2),
+    down = yOf(scene, -across / 2);
   g.fillStyle = c.wash;
   g.fillRect(0, TOP, width, height - TOP - BOTTOM);
-  const whole = width / view.scale > turn, left = whole ? xOf(scene, -turn / 2) : 0, right = whole ? xOf(scene, turn / 2) : width;
+  const whole = width / view.scale > turn,
+    left = whole ? xOf(scene, -turn / 2) : 0,
+    right = whole ? xOf(scene, turn / 2) : width;
   const shine = g.createLinearGradient(0, up, 0, down);
   shine.addColorStop(0, c.line);
   shine.addColorStop(0.2, c.steel);
@@ -120,17 +152,22 @@ function surface(g, scene, c) {
   g.fillStyle = shine;
   g.fillRect(left, up, right - left, down - up);
   // Places on the turn, in degrees; steps that leave room for the words.
-  const step = [1, 2, 5, 10, 15, 30, 45, 90].find((d) => d / 360 * turn * view.scale > 56) ?? 180;
-  const from = whole ? -turn / 2 : view.s - width / 2 / view.scale, to = whole ? turn / 2 : view.s + width / 2 / view.scale;
+  const step = [1, 2, 5, 10, 15, 30, 45, 90].find((d) => (d / 360) * turn * view.scale > 56) ?? 180;
+  const from = whole ? -turn / 2 : view.s - width / 2 / view.scale,
+    to = whole ? turn / 2 : view.s + width / 2 / view.scale;
   g.strokeStyle = c.faint;
   g.fillStyle = c.faint;
   g.lineWidth = 1;
   g.font = `11px ${c.font}`;
   g.textAlign = "center";
-  for (let k = Math.ceil(from / turn * 360 / step); k * step / 360 * turn <= to; k++) {
-    const x = Math.round(xOf(scene, k * step / 360 * turn)) + 0.5, deg = ((k * step + 180) % 360 + 360) % 360 - 180;
+  for (let k = Math.ceil(((from / turn) * 360) / step); ((k * step) / 360) * turn <= to; k++) {
+    const x = Math.round(xOf(scene, ((k * step) / 360) * turn)) + 0.5,
+      deg = ((((k * step + 180) % 360) + 360) % 360) - 180;
     g.globalAlpha = 0.25;
-    path(g, [[x, TOP], [x, height - BOTTOM]]);
+    path(g, [
+      [x, TOP],
+      [x, height - BOTTOM],
+    ]);
     g.stroke();
     g.globalAlpha = 1;
     g.fillText(`${String(deg).replace("-", "−")}°`, x, height - 6);
@@ -141,7 +178,8 @@ function surface(g, scene, c) {
 function outline(g, scene, one, s) {
   g.beginPath();
   for (const points of one.polygons_mm) {
-    for (let i = 0; i < points.length; i += 2) g[i ? "lineTo" : "moveTo"](xOf(scene, s + points[i]), yOf(scene, one.z + points[i + 1]));
+    for (let i = 0; i < points.length; i += 2)
+      g[i ? "lineTo" : "moveTo"](xOf(scene, s + points[i]), yOf(scene, one.z + points[i + 1]));
     g.closePath();
   }
 }
@@ -149,8 +187,10 @@ function outline(g, scene, one, s) {
 /** @param {CanvasRenderingContext2D} g @param {Scene} scene @param {Colours} c @param {any} one @param {number} s */
 function pit(g, scene, c, one, s) {
   if (one.grid) {
-    const picture = shaded(one.grid, c.pit), { ds_mm: ds, dz_mm: dz, s0_mm: s0, z0_mm: z0, columns, rows } = one.grid;
-    const x = xOf(scene, s + s0 - ds / 2), y = yOf(scene, one.z + z0 + (rows - 0.5) * dz);
+    const picture = shaded(one.grid, c.pit),
+      { ds_mm: ds, dz_mm: dz, s0_mm: s0, z0_mm: z0, columns, rows } = one.grid;
+    const x = xOf(scene, s + s0 - ds / 2),
+      y = yOf(scene, one.z + z0 + (rows - 0.5) * dz);
     g.imageSmoothingEnabled = true;
     g.drawImage(picture, x, y, columns * ds * scene.view.scale, rows * dz * scene.view.scale);
     return;
@@ -174,21 +214,30 @@ const pictures = new WeakMap();
 function shaded(grid, ink) {
   const known = pictures.get(grid.depth_um);
   if (known) return known;
-  const { columns, rows, depth_um: depth } = grid, canvas = document.createElement("canvas");
+  const { columns, rows, depth_um: depth } = grid,
+    canvas = document.createElement("canvas");
   canvas.width = columns;
   canvas.height = rows;
   const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   g.fillStyle = ink;
   g.fillRect(0, 0, 1, 1);
-  const [red, green, blue] = g.getImageData(0, 0, 1, 1).data, image = g.createImageData(columns, rows);
+  const [red, green, blue] = g.getImageData(0, 0, 1, 1).data,
+    image = g.createImageData(columns, rows);
   let deepest = 1e-9;
   for (const d of depth) deepest = Math.max(deepest, Math.abs(d));
   for (let r = 0; r < rows; r++) {
     for (let k = 0; k < columns; k++) {
-      const at = r * columns + k, to = 4 * ((rows - 1 - r) * columns + k), d = depth[at];
-      const slope = (depth[Math.min(k + 1, columns - 1) + r * columns] - (depth[Math.min(r + 1, rows - 1) * columns + k] ?? d)) / deepest;
+      const at = r * columns + k,
+        to = 4 * ((rows - 1 - r) * columns + k),
+        d = depth[at];
+      const slope =
+        (depth[Math.min(k + 1, columns - 1) + r * columns] - (depth[Math.min(r + 1, rows - 1) * columns + k] ?? d)) /
+        deepest;
       const light = Math.max(-70, Math.min(70, 160 * slope));
-      image.data.set([red + light, green + light, blue + light, d === 0 ? 0 : 90 + 150 * Math.min(1, Math.abs(d) / deepest)], to);
+      image.data.set(
+        [red + light, green + light, blue + light, d === 0 ? 0 : 90 + 150 * Math.min(1, Math.abs(d) / deepest)],
+        to,
+      );
     }
   }
   g.putImageData(image, 0, 0);
@@ -198,7 +247,11 @@ function shaded(grid, ink) {
 
 /** @param {CanvasRenderingContext2D} g @param {Scene} scene @param {Colours} c @param {Contact} contact @param {number} s */
 function roller(g, scene, c, { force }, s) {
-  const { view, across, half, ball, heaviest } = scene, x = xOf(scene, s), y = yOf(scene, 0), wide = half * view.scale, tall = across / 2 * view.scale;
+  const { view, across, half, ball, heaviest } = scene,
+    x = xOf(scene, s),
+    y = yOf(scene, 0),
+    wide = half * view.scale,
+    tall = (across / 2) * view.scale;
   const share = heaviest > 0 ? Math.sqrt(Math.max(0, force) / heaviest) : 0;
   const body = g.createLinearGradient(x - wide, 0, x + wide, 0);
   body.addColorStop(0, c.ink);
@@ -233,11 +286,17 @@ function chosen(g, scene, c, one, s) {
     g.stroke();
   }
   // The box is of what is drawn, wherever its centre lies.
-  const [l, d, r, u] = box(one), pad = 4;
+  const [l, d, r, u] = box(one),
+    pad = 4;
   g.setLineDash([4, 3]);
   g.lineWidth = 1;
   g.strokeStyle = c.blue;
-  g.strokeRect(xOf(scene, s + l) - pad, yOf(scene, one.z + u) - pad, (r - l) * scene.view.scale + 2 * pad, (u - d) * scene.view.scale + 2 * pad);
+  g.strokeRect(
+    xOf(scene, s + l) - pad,
+    yOf(scene, one.z + u) - pad,
+    (r - l) * scene.view.scale + 2 * pad,
+    (u - d) * scene.view.scale + 2 * pad,
+  );
   g.setLineDash([]);
   for (const [hs, hz] of scene.handles) {
     g.fillStyle = c.panel;
@@ -254,7 +313,10 @@ function chosen(g, scene, c, one, s) {
 function marks(g, scene, c) {
   const { stroke, cursor, view, width, height } = scene;
   if (stroke?.points.length) {
-    path(g, stroke.points.map(([s, z]) => [xOf(scene, s), yOf(scene, z)]));
+    path(
+      g,
+      stroke.points.map(([s, z]) => [xOf(scene, s), yOf(scene, z)]),
+    );
     g.lineCap = g.lineJoin = "round";
     g.strokeStyle = c.blue;
     if (stroke.closed) g.setLineDash([5, 3]);
@@ -276,16 +338,25 @@ function marks(g, scene, c) {
     g.strokeStyle = c.warn;
     g.lineWidth = 1.5;
     g.beginPath();
-    for (const [dx, dy] of [[-9, 0], [9, 0], [0, -9], [0, 9]]) {
+    for (const [dx, dy] of [
+      [-9, 0],
+      [9, 0],
+      [0, -9],
+      [0, 9],
+    ]) {
       g.moveTo(x + dx / 3, y + dy / 3);
       g.lineTo(x + dx, y + dy);
     }
     g.stroke();
   }
-  const mm = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20].find((m) => m * view.scale > 40) ?? 50, long = mm * view.scale;
+  const mm = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20].find((m) => m * view.scale > 40) ?? 50,
+    long = mm * view.scale;
   g.strokeStyle = g.fillStyle = c.ink;
   g.lineWidth = 2;
-  path(g, [[width - 12 - long, height - BOTTOM - 8], [width - 12, height - BOTTOM - 8]]);
+  path(g, [
+    [width - 12 - long, height - BOTTOM - 8],
+    [width - 12, height - BOTTOM - 8],
+  ]);
   g.stroke();
   g.textAlign = "center";
   g.fillText(`${mm} mm`, width - 12 - long / 2, height - BOTTOM - 13);

@@ -9,13 +9,21 @@ const QUIET_MS = 3500;
 const pair = (name, value) => h("div", {}, h("dt", {}, name), h("dd", {}, value));
 
 // Of a finished run, which has all channels: those of the sensor's axis, by the ends of their names. Its peaks are means over revolutions, a live one's the record's.
-const RUN = [["rms", "RMS"], ["peak", "mean peak of a revolution"], ["crest_factor", "mean peak over RMS"], ["kurtosis", "kurtosis"]], MOST = 7;
+const RUN = [
+    ["rms", "RMS"],
+    ["peak", "mean peak of a revolution"],
+    ["crest_factor", "mean peak over RMS"],
+    ["kurtosis", "kurtosis"],
+  ],
+  MOST = 7;
 
 /** Quantities and what they are called here. @param {any[]} list @param {string} axis @returns {[any, string][]} */
 function named(list, axis) {
   const run = RUN.map(([end, words]) => [list.find((q) => q.name === `${axis}.${end}`), words]).filter(([q]) => q);
   if (!run.length) return list.slice(0, MOST).map((q) => [q, q.name]);
-  const hz = list.filter((q) => /^defect\d+\.frequency$/.test(q.name) && q.value !== null).map((q) => [q, `frequency of damage ${/\d+/.exec(q.name)}`]);
+  const hz = list
+    .filter((q) => /^defect\d+\.frequency$/.test(q.name) && q.value !== null)
+    .map((q) => [q, `frequency of damage ${/\d+/.exec(q.name)}`]);
   return /** @type {[any, string][]} */ ([...run, ...hz].slice(0, MOST));
 }
 
@@ -24,17 +32,25 @@ const written = (unit) => (unit && unit !== "1" ? ` ${spelled(unit)}` : "");
 
 /** @param {Side} side */
 function figures(side) {
-  const list = side.indicators?.quantities, unit = spelled(side.opened?.unit ?? "");
+  const list = side.indicators?.quantities,
+    unit = spelled(side.opened?.unit ?? "");
   if (list?.length) {
     return named(list, side.opened?.axis).map(([q, words]) => {
-      const known = (/** @type {any} */ v) => v !== null && v !== undefined, bounded = known(q.low) && known(q.high) && q.low !== q.high;
-      const digits = bounded ? digitsOf(q.low, q.high) : 3, interval = bounded ? ` (${short(q.low, digits)} to ${short(q.high, digits)})` : "";
+      const known = (/** @type {any} */ v) => v !== null && v !== undefined,
+        bounded = known(q.low) && known(q.high) && q.low !== q.high;
+      const digits = bounded ? digitsOf(q.low, q.high) : 3,
+        interval = bounded ? ` (${short(q.low, digits)} to ${short(q.high, digits)})` : "";
       return pair(words, `${short(q.value, digits)}${written(q.unit)}${interval}`);
     });
   }
   const m = side.moments;
   if (!m?.samples) return [];
-  return [pair("RMS", `${short(m.rms)} ${unit}`), pair("peak", `${short(m.peak)} ${unit}`), pair("crest factor", short(m.crest)), pair("kurtosis", short(m.kurtosis))];
+  return [
+    pair("RMS", `${short(m.rms)} ${unit}`),
+    pair("peak", `${short(m.peak)} ${unit}`),
+    pair("crest factor", short(m.crest)),
+    pair("kurtosis", short(m.kurtosis)),
+  ];
 }
 
 /** The state of a bearing's run, in words. @param {Side} side */
@@ -44,7 +60,8 @@ function state(side) {
   if (live.state === "lost") return "engine lost";
   const long = `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
   if (live.state === "done") return long;
-  const now = live.whole ? `${long}, ${side.percent} %` : live.state, paused = live.whole && live.state === "paused" ? ", paused" : "";
+  const now = live.whole ? `${long}, ${side.percent} %` : live.state,
+    paused = live.whole && live.state === "paused" ? ", paused" : "";
   // Samples count from where the bearing has settled.
   return `${opened ? now + paused : ""}${moments ? (moments.samples ? `, ${moments.samples} samples` : ", settling") : ""}`;
 }
@@ -56,28 +73,56 @@ const proper = (words) => words.replace(/(?<![\w)])-(?=\d)/g, "−").replace(/[�
 export function readout(root, sides, difference) {
   const several = sides.length > 1;
   root.classList.toggle("several", several);
-  const differ = several ? h("span", { className: "headline differ" }, difference || "How B differs is said when both have a verdict") : null;
-  root.replaceChildren(...(differ ? [differ] : []), ...sides.map((side) => h("div", { className: "one" },
-    ...(several ? [h("span", { className: "name" }, side.name), h("dl", {}, ...figures(side))] : []),
-    h("span", { className: "headline" }, proper(side.verdict?.headline ?? "") || (side.opened ? "Not enough signal for a verdict yet" : "")),
-    h("span", { className: "note" }, several ? state(side) :
-      [state(side), side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
-        side.took ? `edit in ${Math.round(side.took)} ms` : ""].filter(Boolean).join(" · ")),
-    several ? null : h("dl", {}, ...figures(side)),
-  )));
+  const differ = several
+    ? h("span", { className: "headline differ" }, difference || "How B differs is said when both have a verdict")
+    : null;
+  root.replaceChildren(
+    ...(differ ? [differ] : []),
+    ...sides.map((side) =>
+      h(
+        "div",
+        { className: "one" },
+        ...(several ? [h("span", { className: "name" }, side.name), h("dl", {}, ...figures(side))] : []),
+        h(
+          "span",
+          { className: "headline" },
+          proper(side.verdict?.headline ?? "") || (side.opened ? "Not enough signal for a verdict yet" : ""),
+        ),
+        h(
+          "span",
+          { className: "note" },
+          several
+            ? state(side)
+            : [
+                state(side),
+                side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
+                side.took ? `edit in ${Math.round(side.took)} ms` : "",
+              ]
+                .filter(Boolean)
+                .join(" · "),
+        ),
+        several ? null : h("dl", {}, ...figures(side)),
+      ),
+    ),
+  );
 }
 
-let spoken = "", last = -Infinity, timer = 0;
+let spoken = "",
+  last = -Infinity,
+  timer = 0;
 
 /** Says it to a screen reader, politely: not again and again, and only the newest. @param {string} words */
 export function speak(words) {
   if (words === spoken) return;
   spoken = words;
   clearTimeout(timer);
-  timer = setTimeout(() => {
-    last = performance.now();
-    byId("live").textContent = words;
-  }, Math.max(150, QUIET_MS - (performance.now() - last)));
+  timer = setTimeout(
+    () => {
+      last = performance.now();
+      byId("live").textContent = words;
+    },
+    Math.max(150, QUIET_MS - (performance.now() - last)),
+  );
 }
 
 /**
@@ -87,13 +132,31 @@ export function speak(words) {
  * @param {{bad?: boolean, actions?: [string, () => void][], stays?: boolean}} [more]
  */
 export function notice(kind, words, { bad = false, actions = [], stays = false } = {}) {
-  const root = byId("notices"), old = root.querySelector(`[data-kind="${kind}"]`);
+  const root = byId("notices"),
+    old = root.querySelector(`[data-kind="${kind}"]`);
   if (words === null) return void old?.remove();
   if (old && typeof words === "string" && old.querySelector("p")?.textContent === words) return;
-  const node = h("div", { className: bad ? "notice bad" : "notice", "data-kind": kind, role: bad ? "alert" : "status" },
+  const node = h(
+    "div",
+    { className: bad ? "notice bad" : "notice", "data-kind": kind, role: bad ? "alert" : "status" },
     typeof words === "string" ? h("p", {}, words) : words,
-    ...actions.map(([text, act]) => h("button", { type: "button", onclick: () => { node.remove(); act(); } }, text)),
-    stays ? null : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"));
+    ...actions.map(([text, act]) =>
+      h(
+        "button",
+        {
+          type: "button",
+          onclick: () => {
+            node.remove();
+            act();
+          },
+        },
+        text,
+      ),
+    ),
+    stays
+      ? null
+      : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"),
+  );
   if (old) old.replaceWith(node);
   else root.append(node);
 }
@@ -106,7 +169,10 @@ export class Warnings {
   /** @param {Side} side */
   show({ opened, indicators, live }) {
     const result = live.state === "done" ? indicators?.warnings : null;
-    for (const [kind, list] of /** @type {[string, string[] | undefined][]} */ ([["warnings", opened?.warnings], ["result", result]])) {
+    for (const [kind, list] of /** @type {[string, string[] | undefined][]} */ ([
+      ["warnings", opened?.warnings],
+      ["result", result],
+    ])) {
       const words = list?.join("\n") ?? "";
       if (words === (this.#shown[kind] ?? "")) continue;
       this.#shown[kind] = words;

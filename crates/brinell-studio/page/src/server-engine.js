@@ -15,7 +15,9 @@ export class ServerEngine {
   #page = [...crypto.getRandomValues(new Uint8Array(8))].map((b) => b.toString(16).padStart(2, "0")).join("");
 
   constructor() {
-    addEventListener("pagehide", (event) => { if (!event.persisted) navigator.sendBeacon(this.#address("closed")); });
+    addEventListener("pagehide", (event) => {
+      if (!event.persisted) navigator.sendBeacon(this.#address("closed"));
+    });
   }
 
   /** @param {Record<string, unknown>} request @returns {Promise<any>} */
@@ -26,7 +28,9 @@ export class ServerEngine {
   }
 
   /** The server answers it beside others. @param {Record<string, unknown>} request @returns {Promise<any>} */
-  aside(request) { return this.#send(request); }
+  aside(request) {
+    return this.#send(request);
+  }
 
   /** @param {"new" | "page" | "closed"} how */
   #address(how) {
@@ -41,9 +45,20 @@ export class ServerEngine {
       this.#gone = false;
       throw new Lost("the request was given up");
     }
-    const response = await this.#fetched(this.#address(BEGINS.has(String(request.do)) ? "new" : "page"), encode(request));
-    if (response.status === 403) throw new Lost("The server refuses this address: its token is new whenever the server starts. Open the address that it printed.", true);
-    if (response.status === 410) throw new Lost("`brinell studio` serves four pages at a time, and others have asked since this one did. Start again runs this bearing anew, in place of the page that has rested longest.", true);
+    const response = await this.#fetched(
+      this.#address(BEGINS.has(String(request.do)) ? "new" : "page"),
+      encode(request),
+    );
+    if (response.status === 403)
+      throw new Lost(
+        "The server refuses this address: its token is new whenever the server starts. Open the address that it printed.",
+        true,
+      );
+    if (response.status === 410)
+      throw new Lost(
+        "`brinell studio` serves four pages at a time, and others have asked since this one did. Start again runs this bearing anew, in place of the page that has rested longest.",
+        true,
+      );
     if (!response.ok) throw new Lost(`the server answers ${response.status}`);
     return accepted(decode(response.bytes));
   }
@@ -52,18 +67,27 @@ export class ServerEngine {
   async #fetched(address, body) {
     for (const pause of [...PAUSES_MS, 0]) {
       try {
-        const response = await fetch(address, { method: "POST", body, headers: { "Content-Type": "application/octet-stream" } });
+        const response = await fetch(address, {
+          method: "POST",
+          body,
+          headers: { "Content-Type": "application/octet-stream" },
+        });
         return { ok: response.ok, status: response.status, bytes: new Uint8Array(await response.arrayBuffer()) };
       } catch {
         await new Promise((done) => setTimeout(done, pause));
       }
     }
-    throw new Lost("The server does not answer. Start again tries once more; if `brinell studio` has ended, start it and open its new address.", true);
+    throw new Lost(
+      "The server does not answer. Start again tries once more; if `brinell studio` has ended, start it and open its new address.",
+      true,
+    );
   }
 
   /** The server stays. */
   close() {}
 
   /** For tests: the next request finds nobody. */
-  kill() { this.#gone = true; }
+  kill() {
+    this.#gone = true;
+  }
 }

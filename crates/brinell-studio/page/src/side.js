@@ -24,7 +24,9 @@ export class Side {
   problems = [];
   /** Part of a run that is done. */
   part = 0;
-  get percent() { return Math.min(99, Math.floor(100 * this.part)); }
+  get percent() {
+    return Math.min(99, Math.floor(100 * this.part));
+  }
   /** Simulated seconds for a real one, lately. */
   pace = 0;
   /** Milliseconds from the last edit to its bearing. */
@@ -86,10 +88,11 @@ export class Side {
   #slice(data) {
     this.trace.push(data.first, data.x);
     this.moments = data.moments;
-    const now = performance.now(), { t, at } = this.#paced;
+    const now = performance.now(),
+      { t, at } = this.#paced;
     if (data.t < t || now - at > 3000) this.#paced = { t: data.t, at: now };
     else if (now - at > 800) {
-      this.pace = (data.t - t) / (now - at) * 1000;
+      this.pace = ((data.t - t) / (now - at)) * 1000;
       this.#paced = { t: data.t, at: now };
     }
   }
@@ -99,15 +102,26 @@ export class Side {
     if (!(await this.live.settled())) return false;
     if (this.live.state === "done") return true;
     this.live.run();
-    return this.#when((kind, data) => (kind === "problems" || kind === "lost" || kind === "left" || (kind === "state" && data.state === "live") ? false
-      : (kind === "state" && data.state === "done") || undefined));
+    return this.#when((kind, data) =>
+      kind === "problems" || kind === "lost" || kind === "left" || (kind === "state" && data.state === "live")
+        ? false
+        : (kind === "state" && data.state === "done") || undefined,
+    );
   }
 
   /** Whole turns of the shaft in the present scenario, to hear. Resolves with them; null where the bearing rests before there are some. */
   async heard() {
     if (this.loop || !["live", "running"].includes(this.live.state)) return this.loop;
-    return this.#when((kind, data) => (kind === "sound" ? data : kind === "problems" || kind === "lost" || (kind === "opened" && !data.edit.again)
-      || (kind === "state" && (data.state === "paused" || data.state === "done")) ? null : undefined));
+    return this.#when((kind, data) =>
+      kind === "sound"
+        ? data
+        : kind === "problems" ||
+            kind === "lost" ||
+            (kind === "opened" && !data.edit.again) ||
+            (kind === "state" && (data.state === "paused" || data.state === "done"))
+          ? null
+          : undefined,
+    );
   }
 
   /** What `told` says of a report, once it says something. @param {(kind: string, data: any) => any} told @returns {Promise<any>} */

@@ -12,16 +12,32 @@ import { notice } from "./readout.js";
 /** @param {any} about @param {Owner} owner */
 export function startList(about, { side, load, failed }) {
   const select = byId("preset");
-  const group = (/** @type {string} */ label, /** @type {any[]} */ list, /** @type {string} */ kind) => h("optgroup", { label },
-    ...list.map((one) => h("option", { value: `${kind}:${one.name}`, title: one.words }, one.name)));
+  const group = (/** @type {string} */ label, /** @type {any[]} */ list, /** @type {string} */ kind) =>
+    h(
+      "optgroup",
+      { label },
+      ...list.map((one) => h("option", { value: `${kind}:${one.name}`, title: one.words }, one.name)),
+    );
   const sorted = [...about.bearings].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true })),
-    bearings = (/** @type {string} */ label, /** @type {string} */ element) => group(label, sorted.filter((b) => b.element === element), "bearing");
-  select.append(group("Examples", about.examples, "example"), bearings("Ball bearings", "ball"), bearings("Roller bearings", "roller"));
+    bearings = (/** @type {string} */ label, /** @type {string} */ element) =>
+      group(
+        label,
+        sorted.filter((b) => b.element === element),
+        "bearing",
+      );
+  select.append(
+    group("Examples", about.examples, "example"),
+    bearings("Ball bearings", "ball"),
+    bearings("Roller bearings", "roller"),
+  );
   byId("load").addEventListener("click", () => {
     const [kind, name] = select.value.split(/:(.*)/);
     // It names nothing that an edit or undo makes wrong, and the same may be chosen again.
     select.value = "";
-    if (kind === "example") void side().live.urgent({ do: "example", name }).then(({ toml }) => load(toml), failed);
+    if (kind === "example")
+      void side()
+        .live.urgent({ do: "example", name })
+        .then(({ toml }) => load(toml), failed);
     else if (kind === "bearing") put(side().store, name);
     else select.focus();
   });
@@ -36,9 +52,21 @@ function put(store, name) {
   store.seal();
   const count = store.scenario.defects?.length ?? 0;
   if (!count) return notice("kept", null);
-  notice("kept", `${name} has the damage that was drawn before: ${count} ${count === 1 ? "place" : "places"}, at the same angles and of the same size.`,
-    { actions: [["Remove the damage", () => {
-      store.change((s) => { s.defects = []; });
-      store.seal();
-    }]] });
+  notice(
+    "kept",
+    `${name} has the damage that was drawn before: ${count} ${count === 1 ? "place" : "places"}, at the same angles and of the same size.`,
+    {
+      actions: [
+        [
+          "Remove the damage",
+          () => {
+            store.change((s) => {
+              s.defects = [];
+            });
+            store.seal();
+          },
+        ],
+      ],
+    },
+  );
 }

@@ -3,7 +3,10 @@
 /** @typedef {Record<string, any>} Scenario */
 /** @typedef {(string | number)[]} Path */
 
-const STEPS = 200, TOGETHER_MS = 900, KEY = "brinell-studio", EDIT = `${KEY}-edit`;
+const STEPS = 200,
+  TOGETHER_MS = 900,
+  KEY = "brinell-studio",
+  EDIT = `${KEY}-edit`;
 // A link that is longer is cut by some mail programs and chats.
 export const LINK_LIMIT = 8192;
 const INFLATED_LIMIT = 1 << 24;
@@ -27,7 +30,13 @@ export function set(tree, path, value) {
     tree[key] = typeof rest[0] === "number" ? [] : {};
   }
   set(tree[key], rest, value);
-  if (value === undefined && !Array.isArray(tree[key]) && typeof tree[key] === "object" && !Object.keys(tree[key]).length) delete tree[key];
+  if (
+    value === undefined &&
+    !Array.isArray(tree[key]) &&
+    typeof tree[key] === "object" &&
+    !Object.keys(tree[key]).length
+  )
+    delete tree[key];
 }
 
 /**
@@ -56,7 +65,9 @@ export class Store {
   #changed;
 
   /** @param {(scenario: Scenario) => void} changed */
-  constructor(changed) { this.#changed = changed; }
+  constructor(changed) {
+    this.#changed = changed;
+  }
 
   /**
    * Edits a copy of the scenario. Edits of one group that follow each other soon are one step of undo; those of a gesture (its group begins
@@ -64,7 +75,8 @@ export class Store {
    * @param {(scenario: Scenario) => void} edit
    */
   change(edit, group = "") {
-    const now = performance.now(), joined = group !== "" && group === this.#group && (group.startsWith("!") || now - this.#at < TOGETHER_MS);
+    const now = performance.now(),
+      joined = group !== "" && group === this.#group && (group.startsWith("!") || now - this.#at < TOGETHER_MS);
     const next = structuredClone(this.scenario);
     edit(next);
     if (!joined) this.#keep();
@@ -75,7 +87,9 @@ export class Store {
   }
 
   /** The edits so far are a step of their own, whatever comes next. */
-  seal() { this.#group = ""; }
+  seal() {
+    this.#group = "";
+  }
 
   #keep() {
     this.#past.push(this.scenario);
@@ -90,11 +104,19 @@ export class Store {
     this.scenario = structuredClone(scenario);
   }
 
-  get canUndo() { return this.#past.length > 0; }
-  get canRedo() { return this.#future.length > 0; }
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+  get canRedo() {
+    return this.#future.length > 0;
+  }
 
-  undo() { this.#step(this.#past, this.#future); }
-  redo() { this.#step(this.#future, this.#past); }
+  undo() {
+    this.#step(this.#past, this.#future);
+  }
+  redo() {
+    this.#step(this.#future, this.#past);
+  }
 
   /** Undoes the last edit for good: no redo leads to it. */
   takeBack() {
@@ -142,7 +164,10 @@ export function remember(toml, edit) {
 
 /** @param {Uint8Array<ArrayBuffer>} bytes @param {CompressionStream | DecompressionStream} stream @param {number} limit */
 async function through(bytes, stream, limit) {
-  const reader = new Blob([bytes]).stream().pipeThrough(/** @type {any} */ (stream)).getReader();
+  const reader = new Blob([bytes])
+    .stream()
+    .pipeThrough(/** @type {any} */ (stream))
+    .getReader();
   /** @type {Uint8Array<ArrayBuffer>[]} */
   const parts = [];
   for (let size = 0; ;) {
@@ -157,7 +182,9 @@ async function through(bytes, stream, limit) {
 
 /** @param {string} toml */
 export async function toLink(toml) {
-  const bytes = new Uint8Array(await through(new TextEncoder().encode(toml), new CompressionStream("deflate-raw"), INFLATED_LIMIT));
+  const bytes = new Uint8Array(
+    await through(new TextEncoder().encode(toml), new CompressionStream("deflate-raw"), INFLATED_LIMIT),
+  );
   let text = "";
   for (const byte of bytes) text += String.fromCharCode(byte);
   return `#s=${btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
@@ -168,5 +195,7 @@ export async function fromLink(hash) {
   const text = /^#s=([\w-]+)$/.exec(hash)?.[1];
   if (!text) return null;
   const bytes = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
-  return new TextDecoder("utf-8", { fatal: true }).decode(await through(bytes, new DecompressionStream("deflate-raw"), INFLATED_LIMIT));
+  return new TextDecoder("utf-8", { fatal: true }).decode(
+    await through(bytes, new DecompressionStream("deflate-raw"), INFLATED_LIMIT),
+  );
 }

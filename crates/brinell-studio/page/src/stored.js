@@ -12,7 +12,8 @@ import { Trace } from "./trace.js";
 export async function storedRun() {
   const node = document.getElementById("studio-stored");
   if (!node) return null;
-  const held = decode(new Uint8Array(await (await inflated(node.textContent ?? "")).arrayBuffer())), trace = new Trace();
+  const held = decode(new Uint8Array(await (await inflated(node.textContent ?? "")).arrayBuffer())),
+    trace = new Trace();
   trace.push(held.first, held.x);
   const { opened, damage, spectra } = held;
   return { ...held, still: { opened, live: { state: "stored" }, trace, spectra, damage, stored: true } };

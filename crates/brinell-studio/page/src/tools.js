@@ -27,15 +27,20 @@ const tidy = (v) => Number(v.toFixed(3));
  * @param {number} across
  */
 export function shapeBetween(tool, a, b, across) {
-  const length = Math.abs(b[0] - a[0]), width = Math.abs(b[1] - a[1]), tiny = length === 0 && width === 0;
+  const length = Math.abs(b[0] - a[0]),
+    width = Math.abs(b[1] - a[1]),
+    tiny = length === 0 && width === 0;
   const at = tiny ? a : [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
   if (tool === "rectangle") {
-    const shape = tiny ? { length_mm: USUAL.length_mm, width_mm: Math.min(USUAL.width_mm, tidy(0.7 * across)) }
+    const shape = tiny
+      ? { length_mm: USUAL.length_mm, width_mm: Math.min(USUAL.width_mm, tidy(0.7 * across)) }
       : { length_mm: tidy(Math.max(length, SMALLEST_MM)), width_mm: tidy(Math.max(width, SMALLEST_MM)) };
     return { shape: { rectangle: shape }, s: at[0], z: at[1] };
   }
   if (tool === "circle") {
-    const diameter = tiny ? Math.min(USUAL.length_mm, tidy(0.6 * across)) : tidy(Math.max(SMALLEST_MM, 2 * Math.hypot(length, width)));
+    const diameter = tiny
+      ? Math.min(USUAL.length_mm, tidy(0.6 * across))
+      : tidy(Math.max(SMALLEST_MM, 2 * Math.hypot(length, width)));
     return { shape: { circle: { diameter_mm: diameter } }, s: a[0], z: a[1] };
   }
   const widest = tiny ? Math.min(USUAL.width_mm, tidy(0.7 * across)) : tidy(Math.max(SMALLEST_MM, width));
@@ -49,10 +54,14 @@ export class Corners {
   /** Where the pointer is, after the last corner. @type {[number, number] | null} */
   next = null;
 
-  get shown() { return this.next && this.list.length ? [...this.list, this.next] : this.list; }
+  get shown() {
+    return this.next && this.list.length ? [...this.list, this.next] : this.list;
+  }
   get words() {
     const n = this.list.length;
-    return n < 3 ? `${n} of at least 3 corners · Esc drops them` : `${n} corners · Enter, double-click or the first corner closes · Backspace takes one back · Esc drops them`;
+    return n < 3
+      ? `${n} of at least 3 corners · Esc drops them`
+      : `${n} corners · Enter, double-click or the first corner closes · Backspace takes one back · Esc drops them`;
   }
 
   /** Whether a place closes the outline. @param {[number, number]} at @param {number} reach mm */
@@ -81,7 +90,8 @@ export class Corners {
 
 /** A polygon about its own middle. @param {[number, number][]} corners */
 function polygon(corners) {
-  const s = corners.map((p) => p[0]), z = corners.map((p) => p[1]);
+  const s = corners.map((p) => p[0]),
+    z = corners.map((p) => p[1]);
   const [cs, cz] = [(Math.min(...s) + Math.max(...s)) / 2, (Math.min(...z) + Math.max(...z)) / 2];
   return { shape: { outline: { points_mm: corners.map((p) => [tidy(p[0] - cs), tidy(p[1] - cz)]) } }, s: cs, z: cz };
 }
@@ -90,27 +100,50 @@ function polygon(corners) {
 export function handles(shape) {
   if (shape?.rectangle) {
     const { length_mm: l, width_mm: w } = shape.rectangle;
-    return [[-l / 2, 0], [l / 2, 0], [0, w / 2], [0, -w / 2]];
+    return [
+      [-l / 2, 0],
+      [l / 2, 0],
+      [0, w / 2],
+      [0, -w / 2],
+    ];
   }
-  if (shape?.circle) return [[shape.circle.diameter_mm / 2, 0], [-shape.circle.diameter_mm / 2, 0]];
+  if (shape?.circle)
+    return [
+      [shape.circle.diameter_mm / 2, 0],
+      [-shape.circle.diameter_mm / 2, 0],
+    ];
   return [];
 }
 
 /** The shape with one of its handles at another place; the far side stays. @param {Record<string, any>} shape @param {number} which @param {[number, number]} at */
 export function resized(shape, which, at) {
-  if (shape.circle) return { shape: { circle: { ...shape.circle, diameter_mm: tidy(Math.max(SMALLEST_MM, 2 * Math.abs(at[0]))) } }, ds: 0, dz: 0 };
+  if (shape.circle)
+    return {
+      shape: { circle: { ...shape.circle, diameter_mm: tidy(Math.max(SMALLEST_MM, 2 * Math.abs(at[0]))) } },
+      ds: 0,
+      dz: 0,
+    };
   const { length_mm: l, width_mm: w } = shape.rectangle;
   if (which < 2) {
-    const sign = which ? 1 : -1, length = Math.max(SMALLEST_MM, sign * at[0] + l / 2);
-    return { shape: { rectangle: { ...shape.rectangle, length_mm: tidy(length) } }, ds: sign * (length - l) / 2, dz: 0 };
+    const sign = which ? 1 : -1,
+      length = Math.max(SMALLEST_MM, sign * at[0] + l / 2);
+    return {
+      shape: { rectangle: { ...shape.rectangle, length_mm: tidy(length) } },
+      ds: (sign * (length - l)) / 2,
+      dz: 0,
+    };
   }
-  const sign = which === 2 ? 1 : -1, width = Math.max(SMALLEST_MM, sign * at[1] + w / 2);
-  return { shape: { rectangle: { ...shape.rectangle, width_mm: tidy(width) } }, ds: 0, dz: sign * (width - w) / 2 };
+  const sign = which === 2 ? 1 : -1,
+    width = Math.max(SMALLEST_MM, sign * at[1] + w / 2);
+  return { shape: { rectangle: { ...shape.rectangle, width_mm: tidy(width) } }, ds: 0, dz: (sign * (width - w)) / 2 };
 }
 
 /** Left, lower, right and upper end of damage about its centre, mm. @param {any} one @returns {[number, number, number, number]} */
 export function box(one) {
-  let l = Infinity, d = Infinity, r = -Infinity, u = -Infinity;
+  let l = Infinity,
+    d = Infinity,
+    r = -Infinity,
+    u = -Infinity;
   for (const points of one.polygons_mm) {
     for (let i = 0; i < points.length; i += 2) {
       [l, r] = [Math.min(l, points[i]), Math.max(r, points[i])];
@@ -119,7 +152,13 @@ export function box(one) {
   }
   if (l <= r) return [l, d, r, u];
   const grid = one.grid;
-  if (grid) return [grid.s0_mm, grid.z0_mm, grid.s0_mm + (grid.columns - 1) * grid.ds_mm, grid.z0_mm + (grid.rows - 1) * grid.dz_mm];
+  if (grid)
+    return [
+      grid.s0_mm,
+      grid.z0_mm,
+      grid.s0_mm + (grid.columns - 1) * grid.ds_mm,
+      grid.z0_mm + (grid.rows - 1) * grid.dz_mm,
+    ];
   return [-one.length_mm / 2, -one.width_mm / 2, one.length_mm / 2, one.width_mm / 2];
 }
 
@@ -128,10 +167,12 @@ export function hits(one, s, z, slack) {
   let inside = false;
   for (const p of one.polygons_mm) {
     for (let i = 0, j = p.length - 2; i < p.length; j = i, i += 2) {
-      if ((p[i + 1] > z) !== (p[j + 1] > z) && s < (p[j] - p[i]) * (z - p[i + 1]) / (p[j + 1] - p[i + 1]) + p[i]) inside = !inside;
+      if (p[i + 1] > z !== p[j + 1] > z && s < ((p[j] - p[i]) * (z - p[i + 1])) / (p[j + 1] - p[i + 1]) + p[i])
+        inside = !inside;
     }
   }
   // Small or thin damage is taken by its box.
-  const [l, d, r, u] = box(one), near = s > l - slack && s < r + slack && z > d - slack && z < u + slack;
+  const [l, d, r, u] = box(one),
+    near = s > l - slack && s < r + slack && z > d - slack && z < u + slack;
   return inside || (near && (Math.min(r - l, u - d) < 4 * slack || one.grid !== null));
 }

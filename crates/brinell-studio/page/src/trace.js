@@ -8,7 +8,9 @@ export class Trace {
   /** Index of the first value that is kept. */
   first = 0;
 
-  get end() { return this.first + this.#length; }
+  get end() {
+    return this.first + this.#length;
+  }
 
   /** @param {number} first index of x[0] @param {Float32Array} x */
   push(first, x) {

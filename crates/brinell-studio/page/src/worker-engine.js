@@ -4,8 +4,22 @@ import { decode, encode } from "./message.js";
 
 const TICK_MS = 100;
 // A slice is asked to take a tenth of a second, and may take several times that after an edit; what else a bearing is asked hardly more, but tables that are made beside it take a core; reading a file or judging a signal may take long.
-const SLICE_TICKS = 20, SHORT_TICKS = 60, LONG_TICKS = 600, SLACK = 4;
-const SHORT = new Set(["advance", "open", "spectra", "indicators", "sound", "damage", "passage", "scratch", "brush", "normal"]);
+const SLICE_TICKS = 20,
+  SHORT_TICKS = 60,
+  LONG_TICKS = 600,
+  SLACK = 4;
+const SHORT = new Set([
+  "advance",
+  "open",
+  "spectra",
+  "indicators",
+  "sound",
+  "damage",
+  "passage",
+  "scratch",
+  "brush",
+  "normal",
+]);
 
 /** @typedef {{id: number, done: (answer: any) => void, failed: (error: Error) => void, slice: boolean, short: boolean, asked: number}} Waiting */
 /** @typedef {import("./assets.js").Assets} Assets */
@@ -26,7 +40,7 @@ export class WorkerEngine {
 
   /** @param {Assets} parts */
   constructor(parts) {
-    const { module, worker } = this.#parts = parts;
+    const { module, worker } = (this.#parts = parts);
     this.#worker = new Worker(worker);
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onerror = (event) => {
@@ -41,9 +55,17 @@ export class WorkerEngine {
   /** @param {Record<string, unknown>} request @returns {Promise<any>} */
   ask(request) {
     if (this.#lost) return Promise.reject(this.#lost);
-    const bytes = encode(request), id = this.#next++;
+    const bytes = encode(request),
+      id = this.#next++;
     return new Promise((done, failed) => {
-      this.#waiting.push({ id, done, failed, slice: request.do === "advance", short: SHORT.has(String(request.do)), asked: performance.now() });
+      this.#waiting.push({
+        id,
+        done,
+        failed,
+        slice: request.do === "advance",
+        short: SHORT.has(String(request.do)),
+        asked: performance.now(),
+      });
       if (this.#waiting.length === 1) this.#ticks = 0;
       this.#worker.postMessage({ id, bytes }, [bytes.buffer]);
     });
@@ -51,7 +73,8 @@ export class WorkerEngine {
 
   /** In a Worker of its own. @param {Record<string, unknown>} request @param {AbortSignal} left @returns {Promise<any>} */
   async aside(request, left) {
-    const other = new WorkerEngine(this.#parts), lose = () => other.#lose("nobody waits for it");
+    const other = new WorkerEngine(this.#parts),
+      lose = () => other.#lose("nobody waits for it");
     left.addEventListener("abort", lose);
     try {
       // Its memory is not this one's.
@@ -84,7 +107,13 @@ export class WorkerEngine {
     if (!first) return;
     this.#ticks += 1;
     // The first slices are slow, as the browser still compiles.
-    const warm = this.#slices > 3, limit = warm && first.slice ? SLICE_TICKS + SLACK * this.#slowest / TICK_MS : warm && first.short ? SHORT_TICKS : LONG_TICKS;
+    const warm = this.#slices > 3,
+      limit =
+        warm && first.slice
+          ? SLICE_TICKS + (SLACK * this.#slowest) / TICK_MS
+          : warm && first.short
+            ? SHORT_TICKS
+            : LONG_TICKS;
     if (this.#ticks > limit) this.#lose("the Worker is silent");
   }
 
@@ -104,5 +133,7 @@ export class WorkerEngine {
   }
 
   /** For tests: the Worker ends without a word, as when the browser takes its memory. */
-  kill() { this.#worker.terminate(); }
+  kill() {
+    this.#worker.terminate();
+  }
 }

@@ -21,7 +21,9 @@
 
   port.onmessage = async ({ data }) => {
     if (data.module) {
-      engine = WebAssembly.instantiate(/** @type {WebAssembly.Module} */ (data.module), {}).then((instance) => /** @type {any} */ (instance.exports));
+      engine = WebAssembly.instantiate(/** @type {WebAssembly.Module} */ (data.module), {}).then(
+        (instance) => /** @type {any} */ (instance.exports),
+      );
       engine.catch(() => {});
       return;
     }

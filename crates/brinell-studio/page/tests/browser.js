@@ -7,9 +7,20 @@ import { buffer } from "node:stream/consumers";
 import { chromium } from "playwright-core";
 import { hosted } from "../host.js";
 
-const PLACES = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome", "/Applications/Chromium.app/Contents/MacOS/Chromium"];
+const PLACES = [
+  "/usr/bin/chromium",
+  "/usr/bin/chromium-browser",
+  "/usr/bin/google-chrome",
+  "/Applications/Chromium.app/Contents/MacOS/Chromium",
+];
 const ROOT = resolve(import.meta.dirname, "..");
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
+const TYPES = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".mjs": "text/javascript",
+  ".css": "text/css",
+  ".wasm": "application/wasm",
+};
 /** The engine's module. */
 export const WASM = process.env.STUDIO_WASM || resolve(ROOT, "../../../target/studio/studio.wasm");
 if (!existsSync(WASM)) throw new Error(`no ${WASM}; .ci/studio makes it`);
@@ -17,8 +28,19 @@ if (!existsSync(WASM)) throw new Error(`no ${WASM}; .ci/studio makes it`);
 export async function launch() {
   const executablePath = process.env.CHROMIUM || PLACES.find(existsSync);
   if (!executablePath) throw new Error(`no Chromium at ${PLACES.join(", ")}; CHROMIUM names another`);
-  return chromium.launch({ executablePath, headless: true, chromiumSandbox: false,
-    args: ["--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"] });
+  return chromium.launch({
+    executablePath,
+    headless: true,
+    chromiumSandbox: false,
+    args: [
+      "--disable-gpu",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+    ],
+  });
 }
 
 // Serves the page with the engine's module beside index.html, and the engine itself as `brinell studio` would.
@@ -68,8 +90,16 @@ export async function quietly(browser, url, options, look) {
     await look(page);
     assert.deepEqual(page.said, []);
     const home = new URL(url).origin;
-    assert.deepEqual(page.asked.filter((u) => !(url.startsWith("http") && u.startsWith(home)) && u.split("#")[0] !== url.split("#")[0] && !u.startsWith("data:")
-      && !u.startsWith("blob:")), []);
+    assert.deepEqual(
+      page.asked.filter(
+        (u) =>
+          !(url.startsWith("http") && u.startsWith(home)) &&
+          u.split("#")[0] !== url.split("#")[0] &&
+          !u.startsWith("data:") &&
+          !u.startsWith("blob:"),
+      ),
+      [],
+    );
   } finally {
     await page.context().close();
   }

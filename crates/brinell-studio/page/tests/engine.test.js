@@ -13,12 +13,15 @@ const FILE = resolve(import.meta.dirname, "golden.json");
 const GOLDEN = JSON.parse(readFileSync(FILE, "utf8"));
 
 /** An example as the recorded bits have it: with the paper's laws, but where these know no damage, under balls and where rollers tilt. */
-const recorded = (/** @type {string} */ toml) => /preset = "6|model = "tilting"/.test(toml) ? toml : toml.replace("[simulation]\n", '[simulation]\nlaws = "li2023"\n');
+const recorded = (/** @type {string} */ toml) =>
+  /preset = "6|model = "tilting"/.test(toml) ? toml : toml.replace("[simulation]\n", '[simulation]\nlaws = "li2023"\n');
 
 describe("the engine as WebAssembly", () => {
   /** @type {WebAssembly.Module} */
   let module;
-  before(async () => { module = await WebAssembly.compile(readFileSync(WASM)); });
+  before(async () => {
+    module = await WebAssembly.compile(readFileSync(WASM));
+  });
 
   /** Opens an example for 0.1 s and runs it in slices. */
   function run(/** @type {any} */ ask, /** @type {string} */ toml, /** @type {number} */ rows) {
@@ -38,26 +41,32 @@ describe("the engine as WebAssembly", () => {
   it("has no imports", () => assert.deepEqual(WebAssembly.Module.imports(module), []));
 
   it("computes the recorded bits, in whatever slices", async (t) => {
-    const { ask } = await hosted(module), found = {};
+    const { ask } = await hosted(module),
+      found = {};
     for (const name of Object.keys(GOLDEN)) {
-      const { toml } = ask({ do: "example", name }), before = process.cpuUsage();
+      const { toml } = ask({ do: "example", name }),
+        before = process.cpuUsage();
       found[name] = run(ask, recorded(toml), 256);
-      t.diagnostic(`${name}: ${(process.cpuUsage(before).user / 1e5).toFixed(2)} s of processor time for a simulated second`);
+      t.diagnostic(
+        `${name}: ${(process.cpuUsage(before).user / 1e5).toFixed(2)} s of processor time for a simulated second`,
+      );
     }
     if (process.env.GOLDEN === "write") return writeFileSync(FILE, `${JSON.stringify(found, null, 1)}\n`);
     assert.deepEqual(found, GOLDEN);
     const rectangle = recorded(ask({ do: "example", name: "rectangle" }).toml);
-    for (const rows of [1, 100, 10000]) assert.deepEqual(run((await hosted(module)).ask, rectangle, rows), GOLDEN.rectangle);
+    for (const rows of [1, 100, 10000])
+      assert.deepEqual(run((await hosted(module)).ask, rectangle, rows), GOLDEN.rectangle);
   });
 
   it("keeps its memory over a thousand messages and a hundred edits", async (t) => {
-    const { ask, size } = await hosted(module), toml = recorded(ask({ do: "example", name: "rectangle" }).toml);
+    const { ask, size } = await hosted(module),
+      toml = recorded(ask({ do: "example", name: "rectangle" }).toml);
     ask({ do: "open", slot: 0, toml });
     // Until what is kept of the signal is full.
     for (let k = 0; k < 20; k++) {
       ask({ do: "open", slot: 0, toml, carry: true });
       for (let n = 0; n < 10; n++) ask({ do: "advance", slot: 0, rows: 16, frames: true });
-      if (k === 0) ask({ do: "advance", slot: 0, rows: 1024 }), ask({ do: "spectra", slot: 0, longest: 1024 });
+      if (k === 0) (ask({ do: "advance", slot: 0, rows: 1024 }), ask({ do: "spectra", slot: 0, longest: 1024 }));
     }
     const before = size();
     for (let k = 0; k < 100; k++) {

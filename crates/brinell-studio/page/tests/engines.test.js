@@ -14,13 +14,21 @@ describe("the healthy bearing behind the curves", () => {
   async function asked(nth) {
     const said = [];
     let free = true;
-    const engine = { slots: true, ask: async (request) => {
-      said.push(free ? request.do : `${request.do} of bearing B`);
-      await pause(1);
-      free &&= said.length !== nth;
-      return { x, first: 0, rate_hz: 25600 };
-    } };
-    const healthy = new Healthy(async () => engine, 1, () => free, () => {});
+    const engine = {
+      slots: true,
+      ask: async (request) => {
+        said.push(free ? request.do : `${request.do} of bearing B`);
+        await pause(1);
+        free &&= said.length !== nth;
+        return { x, first: 0, rate_hz: 25600 };
+      },
+    };
+    const healthy = new Healthy(
+      async () => engine,
+      1,
+      () => free,
+      () => {},
+    );
     healthy.want({ defects: [{}] });
     free = nth !== 0;
     await pause(1300);
@@ -36,11 +44,13 @@ describe("the healthy bearing behind the curves", () => {
 
 describe("the pace of slices", () => {
   it("comes to a tenth of a second, whatever a step takes, and back", () => {
-    const pace = new Pace(), slice = (step_ms, needed) => {
-      const steps = Math.min(needed, pace.steps), ms = step_ms * steps;
-      pace.took(ms, steps < needed);
-      return ms;
-    };
+    const pace = new Pace(),
+      slice = (step_ms, needed) => {
+        const steps = Math.min(needed, pace.steps),
+          ms = step_ms * steps;
+        pace.took(ms, steps < needed);
+        return ms;
+      };
     for (let k = 0; k < 20; k++) slice(0.01, 1e9);
     assert.ok(Math.abs(slice(0.01, 1e9) - 100) < 1, `${pace.steps} steps`);
     // An edit makes a step a hundred times as long: a few slices later it is bounded again.
@@ -55,8 +65,16 @@ describe("an engine behind a server", () => {
   /** @type {Record<string, () => void>} */
   const heard = {};
   const beacons = [];
-  Object.assign(globalThis, { location: { search: "?token=secret" }, addEventListener: (kind, act) => { heard[kind] = act; } });
-  Object.defineProperty(globalThis, "navigator", { value: { sendBeacon: (address) => beacons.push(address) }, configurable: true });
+  Object.assign(globalThis, {
+    location: { search: "?token=secret" },
+    addEventListener: (kind, act) => {
+      heard[kind] = act;
+    },
+  });
+  Object.defineProperty(globalThis, "navigator", {
+    value: { sendBeacon: (address) => beacons.push(address) },
+    configurable: true,
+  });
   /** Requests of a page whose server answers with these, one after the other: a status, or null where it cannot be reached. */
   function before(answers) {
     const asked = [];
@@ -74,7 +92,10 @@ describe("an engine behind a server", () => {
     for (const request of ["about", "open", "advance"]) await engine.ask({ do: request });
     const page = asked[0][0].get("new");
     assert.match(page, /^[0-9a-f]{16}$/);
-    assert.deepEqual(asked.map(([query]) => `${query}`), [`token=secret&new=${page}`, `token=secret&new=${page}`, `token=secret&page=${page}`]);
+    assert.deepEqual(
+      asked.map(([query]) => `${query}`),
+      [`token=secret&new=${page}`, `token=secret&new=${page}`, `token=secret&page=${page}`],
+    );
     heard.pagehide({ persisted: false });
     assert.deepEqual(beacons, [`ask?token=secret&closed=${page}`]);
     await new ServerEngine().ask({ do: "about" });
@@ -82,7 +103,8 @@ describe("an engine behind a server", () => {
   });
 
   it("asks again where the server cannot be reached for a moment", async () => {
-    const { asked, engine } = before([null, null, 200]), from = performance.now();
+    const { asked, engine } = before([null, null, 200]),
+      from = performance.now();
     assert.deepEqual(await engine.ask({ do: "advance" }), { ok: true });
     assert.equal(asked.length, 3);
     assert.ok(performance.now() - from > 400);
@@ -90,7 +112,10 @@ describe("an engine behind a server", () => {
 
   it("says plainly that other pages have its engine", async () => {
     const { asked, engine } = before([410]);
-    await assert.rejects(engine.ask({ do: "advance" }), (error) => error.gone && /four pages at a time.*Start again/.test(error.message));
+    await assert.rejects(
+      engine.ask({ do: "advance" }),
+      (error) => error.gone && /four pages at a time.*Start again/.test(error.message),
+    );
     assert.equal(asked.length, 1, "it does not take the engine back by itself");
   });
 });

@@ -5,21 +5,44 @@ export const scenario = (page) => page.evaluate(() => globalThis.brinellStudio.s
 export const opened = (page) => page.evaluate(() => globalThis.brinellStudio.side.opened);
 export const until = (page, look, given) => page.waitForFunction(look, given, { timeout: 90000, polling: 20 });
 // The bearing that runs is the one that is wanted; the engine may write its keys in another order.
-export const settled = (page) => until(page, () => {
-  const { side } = globalThis.brinellStudio,
-    sorted = (v) => (Array.isArray(v) || v === null || typeof v !== "object" ? v : Object.fromEntries(Object.entries(v).sort(([a], [b]) => (a < b ? -1 : 1))));
-  const text = (scenario) => JSON.stringify(scenario?.defects?.map(({ depth_um, on, row, center_deg, shape }) => [depth_um, on, row, center_deg, Object.keys(shape),
-    shape.rectangle, shape.circle]) ?? [], (_, v) => sorted(v));
-  return text(side.opened?.scenario) === text(side.store.scenario);
-});
+export const settled = (page) =>
+  until(page, () => {
+    const { side } = globalThis.brinellStudio,
+      sorted = (v) =>
+        Array.isArray(v) || v === null || typeof v !== "object"
+          ? v
+          : Object.fromEntries(Object.entries(v).sort(([a], [b]) => (a < b ? -1 : 1)));
+    const text = (scenario) =>
+      JSON.stringify(
+        scenario?.defects?.map(({ depth_um, on, row, center_deg, shape }) => [
+          depth_um,
+          on,
+          row,
+          center_deg,
+          Object.keys(shape),
+          shape.rectangle,
+          shape.circle,
+        ]) ?? [],
+        (_, v) => sorted(v),
+      );
+    return text(side.opened?.scenario) === text(side.store.scenario);
+  });
 // The page draws with the next frame what it has heard: what a node says and what a field holds is waited for.
-export const says = (page, words) => until(page, ([source, flags]) => new RegExp(source, flags).test(document.getElementById("state").textContent), [words.source, words.flags]);
-export const holds = async (input, value) => until(input.page(), ([node, value]) => node.value === value, [await input.elementHandle(), value]);
+export const says = (page, words) =>
+  until(page, ([source, flags]) => new RegExp(source, flags).test(document.getElementById("state").textContent), [
+    words.source,
+    words.flags,
+  ]);
+export const holds = async (input, value) =>
+  until(input.page(), ([node, value]) => node.value === value, [await input.elementHandle(), value]);
 // Statistics of more samples than these, all of them at one instant.
-export const moments = async (page, least) => (await page.waitForFunction((n) => {
-  const m = globalThis.brinellStudio.side.moments;
-  return m?.rms && m.kurtosis && m.samples > n && m;
-}, least)).jsonValue();
+export const moments = async (page, least) =>
+  (
+    await page.waitForFunction((n) => {
+      const m = globalThis.brinellStudio.side.moments;
+      return m?.rms && m.kurtosis && m.samples > n && m;
+    }, least)
+  ).jsonValue();
 // A value is taken when its field is left.
 export const type = async (input, value) => {
   await input.fill(value);
@@ -44,11 +67,15 @@ export async function drag(page, from, to, steps = 12) {
   await page.mouse.move(...(await place(page, ...to)), { steps });
   await page.mouse.up();
 }
-export const drop = (page, name, base64) => page.evaluate(([name, text]) => {
-  const transfer = new DataTransfer();
-  transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
-  document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-}, [name, base64]);
+export const drop = (page, name, base64) =>
+  page.evaluate(
+    ([name, text]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    },
+    [name, base64],
+  );
 export async function saved(page, item) {
   const waiting = page.waitForEvent("download", { timeout: 60000 });
   await page.click("#save");

@@ -11,7 +11,8 @@ import { arcs, paintLegend, paintLoad, paintRow, RING } from "./face.js";
 /** @typedef {import("./face.js").Damage} Damage */
 
 /** Turns after a change: in which the bearing comes to its new state, and of which a stopped picture is taken then. */
-const SETTLES = 2, STOPPED = 2;
+const SETTLES = 2,
+  STOPPED = 2;
 
 const own = sheet(`
 :host { display: flex; flex-direction: column; }
@@ -51,7 +52,10 @@ export class BrinellBearing extends View {
     /** "both" or the row's index. @type {string} */
     this.which = "both";
     this.calm = matchMedia("(prefers-reduced-motion: reduce)");
-    this.seen = new IntersectionObserver((entries) => { this.visible = entries[entries.length - 1].isIntersecting; this.run(); });
+    this.seen = new IntersectionObserver((entries) => {
+      this.visible = entries[entries.length - 1].isIntersecting;
+      this.run();
+    });
     this.title_ = h("span", { class: "title" }, "Bearing");
     this.told = h("span", { class: "readout" });
     this.canvas = h("canvas", { role: "img", "aria-label": "Bearing" });
@@ -59,16 +63,41 @@ export class BrinellBearing extends View {
     this.stage = h("div", { class: "stage" }, this.canvas, this.empty);
     this.playButton = h("button", { type: "button", id: "play" }, "Play");
     this.turnButton = h("button", { type: "button", title: "One turn of the shaft, then stop" }, "1 turn");
-    this.pace = /** @type {HTMLInputElement} */ (h("input",
-      { type: "range", min: "20", max: "200", step: "5", value: "60", "aria-label": "Slow motion, times slower than real" }));
+    this.pace = /** @type {HTMLInputElement} */ (
+      h("input", {
+        type: "range",
+        min: "20",
+        max: "200",
+        step: "5",
+        value: "60",
+        "aria-label": "Slow motion, times slower than real",
+      })
+    );
     this.paceTold = h("output");
     this.rowsPick = h("select", { "aria-label": "Row shown" });
-    const bar = h("div", { class: "tools bar" }, this.playButton, this.turnButton, h("label", {}, this.pace, this.paceTold), this.rowsPick);
+    const bar = h(
+      "div",
+      { class: "tools bar" },
+      this.playButton,
+      this.turnButton,
+      h("label", {}, this.pace, this.paceTold),
+      this.rowsPick,
+    );
     this.root.append(h("div", { class: "head" }, this.title_, this.told), this.stage, bar);
-    this.playButton.addEventListener("click", () => { this.wanted = !this.playing; this.toGo = Infinity; this.set(this.wanted); });
+    this.playButton.addEventListener("click", () => {
+      this.wanted = !this.playing;
+      this.toGo = Infinity;
+      this.set(this.wanted);
+    });
     this.turnButton.addEventListener("click", () => this.step());
-    this.pace.addEventListener("input", () => { this.slower = Number(this.pace.value); this.tell(); });
-    this.rowsPick.addEventListener("change", () => { this.which = this.rowsPick.value; this.requestDraw(); });
+    this.pace.addEventListener("input", () => {
+      this.slower = Number(this.pace.value);
+      this.tell();
+    });
+    this.rowsPick.addEventListener("change", () => {
+      this.which = this.rowsPick.value;
+      this.requestDraw();
+    });
   }
 
   connectedCallback() {
@@ -87,16 +116,23 @@ export class BrinellBearing extends View {
 
   // --- properties ------------------------------------------------------------------------------------------------------------------------
   /** @returns {Geometry | null} */
-  get geometry() { return this.shape; }
+  get geometry() {
+    return this.shape;
+  }
   set geometry(geometry) {
-    const same = geometry && this.shape && geometry.rows === this.shape.rows && geometry.elements === this.shape.elements;
+    const same =
+      geometry && this.shape && geometry.rows === this.shape.rows && geometry.elements === this.shape.elements;
     this.shape = geometry ?? null;
     if (!same) {
       this.motion = geometry ? new Motion(geometry.rows, geometry.elements) : null;
       this.limit = new Limit();
       const rows = geometry?.rows ?? 1;
-      this.rowsPick.replaceChildren(...[["both", rows > 2 ? "All rows" : "Both rows"],
-        ...Array.from({ length: rows }, (_, k) => [String(k), `Row ${k + 1}`])].map(([value, words]) => h("option", { value }, words)));
+      this.rowsPick.replaceChildren(
+        ...[
+          ["both", rows > 2 ? "All rows" : "Both rows"],
+          ...Array.from({ length: rows }, (_, k) => [String(k), `Row ${k + 1}`]),
+        ].map(([value, words]) => h("option", { value }, words)),
+      );
       this.rowsPick.hidden = rows < 2;
       this.which = this.rowsPick.value = "both";
     }
@@ -105,36 +141,59 @@ export class BrinellBearing extends View {
     this.requestDraw();
   }
   /** Frames of the latest answer; they are added to those that came before. @returns {import("./motion.js").Frames | null} */
-  get frames() { return this.given; }
+  get frames() {
+    return this.given;
+  }
   set frames(frames) {
     this.given = frames;
     if (!frames || !this.motion) return;
     this.motion.push(frames);
-    if (!this.motion.clip) { this.motion.go(0); this.requestDraw(); }
+    if (!this.motion.clip) {
+      this.motion.go(0);
+      this.requestDraw();
+    }
     // A stopped picture shows the edited bearing too, at nearly the same angles.
-    if (!this.playing && this.renew()) { this.motion.show(0); this.requestDraw(); }
+    if (!this.playing && this.renew()) {
+      this.motion.show(0);
+      this.requestDraw();
+    }
   }
   /** Answer of `damage`, or its list. @returns {any} */
-  get damage() { return this.marks; }
+  get damage() {
+    return this.marks;
+  }
   set damage(damage) {
-    this.marks = Array.isArray(damage) ? damage : damage?.defects ?? [];
+    this.marks = Array.isArray(damage) ? damage : (damage?.defects ?? []);
     this.sort();
     // What is shown from now on is of the edited bearing as soon as it has made a turn.
-    if (this.motion) { this.motion.fresh = 0; this.stale = true; }
+    if (this.motion) {
+      this.motion.fresh = 0;
+      this.stale = true;
+    }
     this.describe();
     this.requestDraw();
   }
   /** Direction of the load, degrees counter-clockwise from +x. */
-  get loadDeg() { return this.towards; }
-  set loadDeg(degrees) { this.towards = Number(degrees) || 0; this.describe(); this.requestDraw(); }
+  get loadDeg() {
+    return this.towards;
+  }
+  set loadDeg(degrees) {
+    this.towards = Number(degrees) || 0;
+    this.describe();
+    this.requestDraw();
+  }
 
   sort() {
     const shape = this.shape;
-    this.arcs = Array.from({ length: shape?.rows ?? 0 }, (_, k) => (shape ? this.marks.filter((d) => d.row === k + 1).flatMap((d) => arcs(d, shape)) : []));
+    this.arcs = Array.from({ length: shape?.rows ?? 0 }, (_, k) =>
+      shape ? this.marks.filter((d) => d.row === k + 1).flatMap((d) => arcs(d, shape)) : [],
+    );
   }
 
   // --- motion ----------------------------------------------------------------------------------------------------------------------------
-  decide() { this.set(this.wanted ?? !this.calm.matches); }
+  decide() {
+    this.set(this.wanted ?? !this.calm.matches);
+  }
   /** @param {boolean} on */
   set(on) {
     this.playing = on;
@@ -157,7 +216,10 @@ export class BrinellBearing extends View {
   }
   run() {
     const on = this.playing && this.visible && this.isConnected;
-    if (!on) { this.halt(); return; }
+    if (!on) {
+      this.halt();
+      return;
+    }
     if (this.ticking) return;
     this.last = performance.now();
     const tick = (/** @type {number} */ now) => {
@@ -167,7 +229,10 @@ export class BrinellBearing extends View {
     };
     this.ticking = requestAnimationFrame(tick);
   }
-  halt() { cancelAnimationFrame(this.ticking); this.ticking = 0; }
+  halt() {
+    cancelAnimationFrame(this.ticking);
+    this.ticking = 0;
+  }
   /** @param {number} wall s */
   advance(wall) {
     const motion = this.motion;
@@ -186,7 +251,8 @@ export class BrinellBearing extends View {
   /** Takes newer turns once the bearing has changed and a turn and a half have been made since; for a stopped picture, once it has settled. */
   renew() {
     const { motion, playing } = this;
-    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLES + STOPPED) * motion.perTurn())) return false;
+    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLES + STOPPED) * motion.perTurn()))
+      return false;
     motion.take(playing ? undefined : STOPPED);
     this.stale = false;
     return true;
@@ -210,18 +276,28 @@ export class BrinellBearing extends View {
   }
   /** @param {import("./pen.js").Pen} pen @param {number} width @param {number} height @param {import("./theme.js").Colours} colours */
   paint(pen, width, height, colours) {
-    const shape = this.shape, motion = this.motion;
+    const shape = this.shape,
+      motion = this.motion;
     if (!shape || !motion) return;
-    const all = Array.from({ length: shape.rows }, (_, k) => k), shown = this.which === "both" ? all : [Number(this.which)];
-    const full = this.limit.hold(motion.largest), words = `${short(full, 3)} N`, damaged = this.marks.length > 0;
-    const foot = paintLegend(null, 8, 0, width - 16, colours, words, damaged), room = height - foot - 6;
-    const head = shown.length > 1 ? 15 : 0, radius = (/** @type {number} */ n) => Math.min(width / n / 2 - 6, (room / Math.ceil(shown.length / n) - head) / 2 - 4);
-    const across = shown.length > 1 && radius(shown.length) >= radius(1) ? shown.length : 1, [w, h] = [width / across, room / Math.ceil(shown.length / across)];
-    const reach = radius(across), scale = reach / (shape.outer_mm * (1 + RING));
+    const all = Array.from({ length: shape.rows }, (_, k) => k),
+      shown = this.which === "both" ? all : [Number(this.which)];
+    const full = this.limit.hold(motion.largest),
+      words = `${short(full, 3)} N`,
+      damaged = this.marks.length > 0;
+    const foot = paintLegend(null, 8, 0, width - 16, colours, words, damaged),
+      room = height - foot - 6;
+    const head = shown.length > 1 ? 15 : 0,
+      radius = (/** @type {number} */ n) =>
+        Math.min(width / n / 2 - 6, (room / Math.ceil(shown.length / n) - head) / 2 - 4);
+    const across = shown.length > 1 && radius(shown.length) >= radius(1) ? shown.length : 1,
+      [w, h] = [width / across, room / Math.ceil(shown.length / across)];
+    const reach = radius(across),
+      scale = reach / (shape.outer_mm * (1 + RING));
     if (!(reach > 12)) return;
-    const perNewton = scale * RING * shape.outer_mm / full;
+    const perNewton = (scale * RING * shape.outer_mm) / full;
     shown.forEach((k, index) => {
-      const x = w * (index % across + 0.5), y = h * Math.floor(index / across) + head + (h - head) / 2;
+      const x = w * ((index % across) + 0.5),
+        y = h * Math.floor(index / across) + head + (h - head) / 2;
       const stage = { x, y, scale, colours, perNewton };
       if (motion.clip) paintRow(pen, stage, shape, motion.state.rows[k], motion.state.ring, this.arcs[k] ?? []);
       paintLoad(pen, stage, shape, this.towards);
@@ -237,14 +313,24 @@ export class BrinellBearing extends View {
   sentence() {
     const shape = this.shape;
     if (!shape) return "Bearing: waiting for the run";
-    const where = this.marks.map((d) => `${d.on.replace("-", " ")}, row ${d.row}, at ${short(d.center_deg, 4)} degrees`);
+    const where = this.marks.map(
+      (d) => `${d.on.replace("-", " ")}, row ${d.row}, at ${short(d.center_deg, 4)} degrees`,
+    );
     return `Bearing from its face: ${shape.rows} ${shape.rows > 1 ? "rows" : "row"} of ${shape.elements} ${shape.element}s, load towards ${short(this.towards, 4)} degrees. ${where.length ? `Damage: ${where.join("; ")}.` : "No damage."}`;
   }
-  describe() { this.canvas.setAttribute("aria-label", this.sentence()); }
+  describe() {
+    this.canvas.setAttribute("aria-label", this.sentence());
+  }
   picture() {
-    const width = Math.max(320, this.stage.clientWidth), height = Math.max(240, this.stage.clientHeight);
-    return { width, height, title: this.sentence(),
-      paint: (/** @type {import("./pen.js").Pen} */ pen, /** @type {import("./theme.js").Colours} */ colours) => this.paint(pen, width, height, colours) };
+    const width = Math.max(320, this.stage.clientWidth),
+      height = Math.max(240, this.stage.clientHeight);
+    return {
+      width,
+      height,
+      title: this.sentence(),
+      paint: (/** @type {import("./pen.js").Pen} */ pen, /** @type {import("./theme.js").Colours} */ colours) =>
+        this.paint(pen, width, height, colours),
+    };
   }
 }
 customElements.define("brinell-bearing", BrinellBearing);

@@ -16,7 +16,8 @@ import { decibel, labelRoom, orders, paintBand, paintLines, part, STRIP, trace, 
 
 const TITLES = { waveform: "Waveform", spectrum: "Spectrum", envelope: "Envelope spectrum" };
 const SHORT = { ...TITLES, envelope: "Envelope" };
-const HELP = "Arrow keys move the cursor, Shift moves it further, Page up and Page down go along the marked lines, plus and minus zoom, 0 shows everything again";
+const HELP =
+  "Arrow keys move the cursor, Shift moves it further, Page up and Page down go along the marked lines, plus and minus zoom, 0 shows everything again";
 /** The logarithmic axis shows this much, dB. */
 const DEPTH = 80;
 /** The pointer finds the highest value of a spectrum within this, px. */
@@ -63,9 +64,17 @@ export class BrinellCurve extends PlotView {
     this.entitled = "";
     this.name = h("span", { class: "title" });
     this.keys = h("span", { class: "tools" });
-    this.scaleButton = h("button", { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" }, "dB");
+    this.scaleButton = h(
+      "button",
+      { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" },
+      "dB",
+    );
     this.allButton = h("button", { type: "button", title: "Everything that there is" }, "All");
-    this.resetButton = h("button", { type: "button", title: "Back to the first view (key 0, double click)", hidden: true }, "Reset");
+    this.resetButton = h(
+      "button",
+      { type: "button", title: "Back to the first view (key 0, double click)", hidden: true },
+      "Reset",
+    );
     /** Shades what is drawn over, to be zoomed to. */
     this.shaded = h("div", { class: "select", hidden: true });
     this.over = h("div", { class: "over" }, this.shaded);
@@ -86,21 +95,30 @@ export class BrinellCurve extends PlotView {
     super.connectedCallback();
     this.entitle();
   }
-  attributeChangedCallback() { this.entitle(); this.limit = new Limit(); this.requestDraw(); }
+  attributeChangedCallback() {
+    this.entitle();
+    this.limit = new Limit();
+    this.requestDraw();
+  }
 
   /** @returns {"waveform" | "spectrum" | "envelope"} */
   get kind() {
     const kind = this.getAttribute("kind");
     return kind === "spectrum" || kind === "envelope" ? kind : "waveform";
   }
-  set kind(kind) { this.setAttribute("kind", kind); }
+  set kind(kind) {
+    this.setAttribute("kind", kind);
+  }
   /** @returns {CurveData | null} */
-  get data() { return this.held; }
+  get data() {
+    return this.held;
+  }
   set data(data) {
     const usable = data && data.values?.length > 1 && data.dx > 0 ? data : null;
     this.held = usable;
     // Another spacing is another axis: what was zoomed stays only where it still fits. All of a record is no part of the live window after it.
-    if (usable && this.zoomed && (this.zoomed[0] >= this.full()[1] || (this.all && usable.settled === undefined))) this.zoomed = null;
+    if (usable && this.zoomed && (this.zoomed[0] >= this.full()[1] || (this.all && usable.settled === undefined)))
+      this.zoomed = null;
     this.requestDraw();
   }
 
@@ -112,8 +130,12 @@ export class BrinellCurve extends PlotView {
     this.tellSoon?.();
   }
   /** What the two curves are called. @param {CurveData} data @param {0 | 1} which */
-  named(data, which) { return data.names?.[which] ?? (which ? "B" : "A"); }
-  unit() { return this.held ? (this.log ? `dB re 1 ${spelled(this.held.unit)}` : spelled(this.held.unit)) : ""; }
+  named(data, which) {
+    return data.names?.[which] ?? (which ? "B" : "A");
+  }
+  unit() {
+    return this.held ? (this.log ? `dB re 1 ${spelled(this.held.unit)}` : spelled(this.held.unit)) : "";
+  }
   /** @param {boolean} on */
   setLog(on) {
     if (this.kind === "waveform") return;
@@ -125,10 +147,13 @@ export class BrinellCurve extends PlotView {
 
   // --- what is shown -------------------------------------------------------------------------------------------------------------------
   /** From the curve's start. @returns {[number, number]} */
-  full() { return this.held ? [0, this.held.dx * (this.held.values.length - 1)] : [0, 1]; }
+  full() {
+    return this.held ? [0, this.held.dx * (this.held.values.length - 1)] : [0, 1];
+  }
   /** @returns {[number, number]} */
   home() {
-    const full = this.full(), settled = (this.held?.settled ?? 0) - (this.held?.x0 ?? 0);
+    const full = this.full(),
+      settled = (this.held?.settled ?? 0) - (this.held?.x0 ?? 0);
     if (this.kind === "waveform" && settled > 0 && settled < 0.9 * full[1]) return [settled, full[1]];
     if (this.kind !== "envelope" || !this.held?.lines?.length) return full;
     const reach = ENVELOPE_ORDERS * Math.max(...this.held.lines.map((line) => line.nominal_hz).filter(Number.isFinite));
@@ -158,7 +183,9 @@ export class BrinellCurve extends PlotView {
     this.zoom([at - (at - from) * factor, at + (to - at) * factor]);
   }
   /** What is shown, counted from the curve's start. @returns {[number, number]} */
-  shown() { return this.zoomed ?? this.home(); }
+  shown() {
+    return this.zoomed ?? this.home();
+  }
 
   /** Axes for what is shown. @param {CurveData} data @param {number} width px @param {number} height px @returns {import("./plot.js").Axes} */
   axes(data, width, height) {
@@ -169,20 +196,28 @@ export class BrinellCurve extends PlotView {
     let most = 0;
     for (const curve of /** @type {Curve[]} */ (curves)) {
       const [first, last] = part(curve, this.view);
-      for (let i = first; i <= last; i++) { const v = Math.abs(curve.values[i]); if (v > most) most = v; }
+      for (let i = first; i <= last; i++) {
+        const v = Math.abs(curve.values[i]);
+        if (v > most) most = v;
+      }
     }
     // Labels are above the curves, nominal frequencies below.
-    const strip = this.kind === "envelope" && data.lines?.length ? STRIP : this.kind === "waveform" ? 7 : 0, tall = Math.max(0.4 * height, height - room - strip);
-    const top = this.log ? 10 * Math.ceil(decibel(most || 1) / 10) : this.limit.hold(most), least = this.log ? top - DEPTH : this.kind === "waveform" ? -top : 0,
+    const strip = this.kind === "envelope" && data.lines?.length ? STRIP : this.kind === "waveform" ? 7 : 0,
+      tall = Math.max(0.4 * height, height - room - strip);
+    const top = this.log ? 10 * Math.ceil(decibel(most || 1) / 10) : this.limit.hold(most),
+      least = this.log ? top - DEPTH : this.kind === "waveform" ? -top : 0,
       px = (top - least) / tall;
     this.least = least;
     this.range = [least - strip * px, top + room * px];
     const [unit, per] = this.xUnit(data),
-      xTicks = ticks(this.view[0] * per, this.view[1] * per, Math.min(10, width / 68)).map(([v, label]) => /** @type {[number, string]} */ ([v / per, label]));
+      xTicks = ticks(this.view[0] * per, this.view[1] * per, Math.min(10, width / 68)).map(
+        ([v, label]) => /** @type {[number, string]} */ ([v / per, label]),
+      );
     if (xTicks.length) xTicks[xTicks.length - 1][1] += ` ${unit}`;
     let yTicks = ticks(least, top, Math.max(2, Math.min(6, tall / 28)));
     // Both ends of a symmetric axis are told.
-    if (least === -top && !(yTicks[yTicks.length - 1]?.[0] > 0.6 * top)) yTicks = [-top, 0, top].map((v) => [v, short(v)]);
+    if (least === -top && !(yTicks[yTicks.length - 1]?.[0] > 0.6 * top))
+      yTicks = [-top, 0, top].map((v) => [v, short(v)]);
     return { x: this.view, y: this.range, xTicks, yTicks };
   }
   /** Unit of the x axis and how many of it are in one s or Hz. @param {CurveData} data @returns {[string, number]} */
@@ -196,10 +231,18 @@ export class BrinellCurve extends PlotView {
     this.empty.hidden = !!data;
     this.entitleOnce();
     if (!data && this.place !== null) this.point(null);
-    const begun = performance.now(), room = fit(this.canvas, this.box), frame = this.frame();
+    const begun = performance.now(),
+      room = fit(this.canvas, this.box),
+      frame = this.frame();
     if (!room) return;
     if (data) {
-      paintAxes(room.pen, frame, this.axes(data, frame.width, frame.height), this.colours, (px) => Math.round(px - 0.5) + 0.5);
+      paintAxes(
+        room.pen,
+        frame,
+        this.axes(data, frame.width, frame.height),
+        this.colours,
+        (px) => Math.round(px - 0.5) + 0.5,
+      );
       this.paint(room.pen, frame, this.colours);
       this.redraws.count++;
       this.redraws.ms += performance.now() - begun;
@@ -210,26 +253,37 @@ export class BrinellCurve extends PlotView {
     if (this.details.open) this.tableSoon();
   }
   entitleOnce() {
-    const legend = this.legend(), key = `${this.kind} ${this.unit()} ${this.held?.settled} ${legend}`;
+    const legend = this.legend(),
+      key = `${this.kind} ${this.unit()} ${this.held?.settled} ${legend}`;
     if (key === this.entitled) return;
     this.entitled = key;
     this.entitle();
-    this.keys.replaceChildren(...legend.map(([word, mark]) => {
-      const key = h("span", { class: "key" }, word);
-      key.style.setProperty("--mark", `var(--_${mark})`);
-      return key;
-    }));
+    this.keys.replaceChildren(
+      ...legend.map(([word, mark]) => {
+        const key = h("span", { class: "key" }, word);
+        key.style.setProperty("--mark", `var(--_${mark})`);
+        return key;
+      }),
+    );
   }
   /** Names of the curves and their colours. */
   legend() {
-    const data = this.held, keys = /** @type {[string, keyof import("./theme.js").Colours][]} */ ([]);
+    const data = this.held,
+      keys = /** @type {[string, keyof import("./theme.js").Colours][]} */ ([]);
     if (data?.stored) keys.push(["stored run", "blue"]);
     if (data?.second) keys.push([this.named(data, 0), "blue"], [this.named(data, 1), "second"]);
     if (data?.behind) keys.push(["healthy", "healthy"]);
     return keys;
   }
   /** Where the curves are in the box. @returns {import("./plot.js").Frame} */
-  frame() { return { left: ROOM.left, top: ROOM.top, width: this.box.clientWidth - ROOM.left - ROOM.right, height: this.box.clientHeight - ROOM.top - ROOM.bottom }; }
+  frame() {
+    return {
+      left: ROOM.left,
+      top: ROOM.top,
+      width: this.box.clientWidth - ROOM.left - ROOM.right,
+      height: this.box.clientHeight - ROOM.top - ROOM.bottom,
+    };
+  }
   /** Shades from one place across the frame to another, px; nothing with null. @param {[number, number] | null} span */
   shade(span) {
     const [from, to] = span ?? [0, 0];
@@ -238,8 +292,13 @@ export class BrinellCurve extends PlotView {
   }
   /** @param {import("./plot.js").Frame} frame @returns {import("./trace.js").Space} */
   space(frame) {
-    const { view, range } = this, { left, top, width, height } = frame, kx = width / (view[1] - view[0]), ky = height / (range[1] - range[0]), bottom = top + height;
-    const Y = this.log ? (/** @type {number} */ v) => bottom - (Math.max(decibel(v), this.least) - range[0]) * ky
+    const { view, range } = this,
+      { left, top, width, height } = frame,
+      kx = width / (view[1] - view[0]),
+      ky = height / (range[1] - range[0]),
+      bottom = top + height;
+    const Y = this.log
+      ? (/** @type {number} */ v) => bottom - (Math.max(decibel(v), this.least) - range[0]) * ky
       : (/** @type {number} */ v) => bottom - (v - range[0]) * ky;
     return { X: (v) => left + (v - view[0]) * kx, Y, frame, view };
   }
@@ -247,7 +306,9 @@ export class BrinellCurve extends PlotView {
   paint(pen, frame, colours) {
     const data = this.held;
     if (!data) return;
-    const space = this.space(frame), peaks = this.kind !== "waveform", { left, top, width, height } = frame;
+    const space = this.space(frame),
+      peaks = this.kind !== "waveform",
+      { left, top, width, height } = frame;
     pen.save();
     pen.beginPath();
     pen.rect(left, top, width, height);
@@ -259,8 +320,12 @@ export class BrinellCurve extends PlotView {
     if (data.second) trace(pen, data.second, space, peaks, colours.second, 1, 0.9);
     pen.strokeStyle = colours.frame;
     pen.lineWidth = 1;
-    const base = top + height * (1 - (this.least - this.range[0]) / (this.range[1] - this.range[0])), zero = this.kind === "waveform" ? space.Y(0) : base - 0.5;
-    path(pen, [[left, zero], [left + width, zero]]);
+    const base = top + height * (1 - (this.least - this.range[0]) / (this.range[1] - this.range[0])),
+      zero = this.kind === "waveform" ? space.Y(0) : base - 0.5;
+    path(pen, [
+      [left, zero],
+      [left + width, zero],
+    ]);
     pen.globalAlpha = this.kind === "waveform" ? 0.35 : 1;
     pen.stroke();
     pen.globalAlpha = 1;
@@ -270,7 +335,8 @@ export class BrinellCurve extends PlotView {
   /** @param {import("./pen.js").Pen} pen @param {Curve} curve @param {import("./trace.js").Space} space @param {import("./theme.js").Colours} colours */
   wash(pen, curve, space, colours) {
     tracePath(pen, curve, space, true);
-    const [first, last] = part(curve, space.view), bottom = space.Y(0);
+    const [first, last] = part(curve, space.view),
+      bottom = space.Y(0);
     pen.lineTo(space.X(curve.x0 + last * curve.dx), bottom);
     pen.lineTo(space.X(curve.x0 + first * curve.dx), bottom);
     pen.globalAlpha = 0.09;
@@ -282,11 +348,13 @@ export class BrinellCurve extends PlotView {
   // --- cursor, pointer, keys -----------------------------------------------------------------------------------------------------------
   /** The sample at a place; of spectra the highest one within so many pixels. @param {Curve} curve @param {number} x @param {number} [snap] */
   sample(curve, x, snap = 0) {
-    const last = curve.values.length - 1, nearest = Math.min(Math.max(Math.round((x - curve.x0) / curve.dx), 0), last);
+    const last = curve.values.length - 1,
+      nearest = Math.min(Math.max(Math.round((x - curve.x0) / curve.dx), 0), last);
     if (!snap || this.kind === "waveform") return nearest;
-    const reach = Math.ceil(snap * (this.view[1] - this.view[0]) / this.frame().width / curve.dx);
+    const reach = Math.ceil((snap * (this.view[1] - this.view[0])) / this.frame().width / curve.dx);
     let best = nearest;
-    for (let i = Math.max(0, nearest - reach); i <= Math.min(last, nearest + reach); i++) if (curve.values[i] > curve.values[best]) best = i;
+    for (let i = Math.max(0, nearest - reach); i <= Math.min(last, nearest + reach); i++)
+      if (curve.values[i] > curve.values[best]) best = i;
     return best;
   }
   /** Puts the cursor at a place counted from the start, or takes it away. @param {number | null} place @param {number} [snap] px */
@@ -304,7 +372,11 @@ export class BrinellCurve extends PlotView {
   read() {
     const data = this.held;
     if (!data || this.place === null) return;
-    const frame = this.frame(), space = this.space(frame), index = this.sample(data, data.x0 + this.place), x = data.x0 + index * data.dx, px = space.X(x);
+    const frame = this.frame(),
+      space = this.space(frame),
+      index = this.sample(data, data.x0 + this.place),
+      x = data.x0 + index * data.dx,
+      px = space.X(x);
     const inside = px >= frame.left - 0.5 && px <= frame.left + frame.width + 0.5;
     this.line.hidden = this.dot.hidden = !inside;
     this.line.style.cssText = `left:${px}px;top:${frame.top}px;height:${frame.height}px`;
@@ -314,42 +386,65 @@ export class BrinellCurve extends PlotView {
   }
   /** @param {CurveData} data @param {number} x @param {number} index */
   words(data, x, index) {
-    const unit = spelled(data.unit), wave = this.kind === "waveform",
-      value = (/** @type {number} */ v) => `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
-    const other = (/** @type {Curve | null | undefined} */ curve, /** @type {string} */ name) => (curve?.values?.length
-      ? ` · ${name} ${short(curve.values[this.sample(curve, x)], 3)}` : "");
+    const unit = spelled(data.unit),
+      wave = this.kind === "waveform",
+      value = (/** @type {number} */ v) =>
+        `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
+    const other = (/** @type {Curve | null | undefined} */ curve, /** @type {string} */ name) =>
+      curve?.values?.length ? ` · ${name} ${short(curve.values[this.sample(curve, x)], 3)}` : "";
     const near = wave ? "" : this.near(data, x);
     return `${wave ? `${(1000 * x).toFixed(2)} ms` : `${short(x, 5)} Hz`} · ${value(data.values[index])}${other(data.second, this.named(data, 1))}${other(data.behind, "healthy")}${near}`;
   }
   /** @param {CurveData} data @param {number} x */
   near(data, x) {
-    const limit = Math.max(data.dx, 5 * (this.view[1] - this.view[0]) / Math.max(this.box.clientWidth, 100));
-    const names = this.marked(data).filter((m) => Math.abs(m.x - x) <= limit).map((m) => m.name);
+    const limit = Math.max(data.dx, (5 * (this.view[1] - this.view[0])) / Math.max(this.box.clientWidth, 100));
+    const names = this.marked(data)
+      .filter((m) => Math.abs(m.x - x) <= limit)
+      .map((m) => m.name);
     return names.length ? ` · ${names.slice(0, 2).join(", ")}` : "";
   }
   /** Every marked line. @param {CurveData} data */
   marked(data) {
-    return (data.lines ?? []).flatMap((line) => (line.found ? orders(line).map((k) => ({ name: k === 1 ? line.name : `${line.name} ×${k}`, x: k * line.hz, k, line }))
-      : [{ name: line.name, x: line.nominal_hz, k: 1, line }]));
+    return (data.lines ?? []).flatMap((line) =>
+      line.found
+        ? orders(line).map((k) => ({ name: k === 1 ? line.name : `${line.name} ×${k}`, x: k * line.hz, k, line }))
+        : [{ name: line.name, x: line.nominal_hz, k: 1, line }],
+    );
   }
   /** @param {KeyboardEvent} event */
   key(event) {
     const data = this.held;
     if (!data) return undefined;
-    const [from, to] = this.shown(), stride = Math.max((to - from) / 200, data.dx) * (event.shiftKey ? 10 : 1), at = this.place ?? (from + to) / 2;
+    const [from, to] = this.shown(),
+      stride = Math.max((to - from) / 200, data.dx) * (event.shiftKey ? 10 : 1),
+      at = this.place ?? (from + to) / 2;
     /** @type {Record<string, () => void>} */
     const acts = {
-      ArrowLeft: () => this.go(at - stride), ArrowRight: () => this.go(at + stride), Home: () => this.go(from), End: () => this.go(to),
-      PageDown: () => this.leap(1), PageUp: () => this.leap(-1), "+": () => this.zoomAround(0.5, at), "=": () => this.zoomAround(0.5, at),
-        "-": () => this.zoomAround(2, at), _: () => this.zoomAround(2, at),
-      0: () => this.zoom(null), l: () => this.setLog(!this.log), L: () => this.setLog(!this.log),
+      ArrowLeft: () => this.go(at - stride),
+      ArrowRight: () => this.go(at + stride),
+      Home: () => this.go(from),
+      End: () => this.go(to),
+      PageDown: () => this.leap(1),
+      PageUp: () => this.leap(-1),
+      "+": () => this.zoomAround(0.5, at),
+      "=": () => this.zoomAround(0.5, at),
+      "-": () => this.zoomAround(2, at),
+      _: () => this.zoomAround(2, at),
+      0: () => this.zoom(null),
+      l: () => this.setLog(!this.log),
+      L: () => this.setLog(!this.log),
     };
-    if (event.key === "Escape" && (this.zoomed || this.place !== null)) { this.zoom(null); this.point(null); }
+    if (event.key === "Escape" && (this.zoomed || this.place !== null)) {
+      this.zoom(null);
+      this.point(null);
+    }
     return acts[event.key];
   }
   /** Moves the cursor, and the view with it. @param {number} place */
   go(place) {
-    const [from, to] = this.shown(), [low, high] = this.full(), at = Math.min(Math.max(place, low), high);
+    const [from, to] = this.shown(),
+      [low, high] = this.full(),
+      at = Math.min(Math.max(place, low), high);
     if (at < from) this.zoom([at, at + to - from]);
     else if (at > to) this.zoom([at - (to - from), at]);
     this.point(at);
@@ -359,14 +454,22 @@ export class BrinellCurve extends PlotView {
   leap(way) {
     const data = this.held;
     if (!data) return;
-    const at = data.x0 + (this.place ?? -Infinity), list = this.marked(data).map((m) => m.x - data.x0).sort((a, b) => a - b), gap = 1.5 * data.dx;
+    const at = data.x0 + (this.place ?? -Infinity),
+      list = this.marked(data)
+        .map((m) => m.x - data.x0)
+        .sort((a, b) => a - b),
+      gap = 1.5 * data.dx;
     const next = way > 0 ? list.find((x) => x > at - data.x0 + gap) : list.findLast((x) => x < at - data.x0 - gap);
     if (next !== undefined) this.go(next);
   }
   listen() {
     const { over } = this;
-    const width = () => over.clientWidth || 1, px = (/** @type {PointerEvent | WheelEvent} */ e) => e.clientX - over.getBoundingClientRect().left;
-    const at = (/** @type {number} */ x) => { const [from, to] = this.shown(); return from + (to - from) * Math.min(Math.max(x / width(), 0), 1); };
+    const width = () => over.clientWidth || 1,
+      px = (/** @type {PointerEvent | WheelEvent} */ e) => e.clientX - over.getBoundingClientRect().left;
+    const at = (/** @type {number} */ x) => {
+      const [from, to] = this.shown();
+      return from + (to - from) * Math.min(Math.max(x / width(), 0), 1);
+    };
     /** @type {Map<number, number>} */
     const fingers = new Map();
     /** @type {number | null} */
@@ -377,47 +480,79 @@ export class BrinellCurve extends PlotView {
     over.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       fingers.set(event.pointerId, px(event));
-      try { over.setPointerCapture(event.pointerId); } catch { /* gone already */ }
-      if (fingers.size === 2) { pinch = spread().map(at); start = null; this.shade(null); } else start = px(event);
+      try {
+        over.setPointerCapture(event.pointerId);
+      } catch {
+        /* gone already */
+      }
+      if (fingers.size === 2) {
+        pinch = spread().map(at);
+        start = null;
+        this.shade(null);
+      } else start = px(event);
     });
     over.addEventListener("pointermove", (event) => {
       if (fingers.has(event.pointerId)) fingers.set(event.pointerId, px(event));
       const [a, b] = spread();
       if (pinch && fingers.size === 2 && b - a > 12) {
         // Two fingers keep what is under them.
-        const per = (pinch[1] - pinch[0]) / (b - a), from = pinch[0] - a * per;
+        const per = (pinch[1] - pinch[0]) / (b - a),
+          from = pinch[0] - a * per;
         this.zoom([from, from + width() * per]);
-      } else if (start !== null && Math.abs(px(event) - start) > 4) this.shade([start, Math.min(Math.max(px(event), 0), width())]);
+      } else if (start !== null && Math.abs(px(event) - start) > 4)
+        this.shade([start, Math.min(Math.max(px(event), 0), width())]);
       if (!pinch) this.point(at(px(event)), SNAP);
     });
     const lift = (/** @type {PointerEvent} */ event) => {
       fingers.delete(event.pointerId);
       this.shade(null);
-      if (pinch) { if (!fingers.size) pinch = null; return; }
+      if (pinch) {
+        if (!fingers.size) pinch = null;
+        return;
+      }
       const begun = start;
       start = null;
-      if (begun !== null && event.type === "pointerup" && Math.abs(px(event) - begun) > 6) this.zoom([at(Math.min(begun, px(event))), at(Math.max(begun, px(event)))]);
+      if (begun !== null && event.type === "pointerup" && Math.abs(px(event) - begun) > 6)
+        this.zoom([at(Math.min(begun, px(event))), at(Math.max(begun, px(event)))]);
     };
     over.addEventListener("pointerup", lift);
     over.addEventListener("pointercancel", lift);
-    over.addEventListener("pointerleave", () => { if (start === null && this.root.activeElement !== this.box) this.point(null); });
+    over.addEventListener("pointerleave", () => {
+      if (start === null && this.root.activeElement !== this.box) this.point(null);
+    });
     over.addEventListener("dblclick", () => this.zoom(null));
-    over.addEventListener("wheel", (event) => {
-      const [from, to] = this.shown();
-      if (event.ctrlKey || event.metaKey) this.zoomAround(Math.exp(Math.max(-1, Math.min(1, event.deltaY * 0.004))), at(px(event)));
-      else if (this.zoomed && Math.abs(event.deltaX) > Math.abs(event.deltaY)) { const by = (to - from) * event.deltaX / width();
-        this.zoom([from + by, to + by]); } else return;
-      event.preventDefault();
-    }, { passive: false });
+    over.addEventListener(
+      "wheel",
+      (event) => {
+        const [from, to] = this.shown();
+        if (event.ctrlKey || event.metaKey)
+          this.zoomAround(Math.exp(Math.max(-1, Math.min(1, event.deltaY * 0.004))), at(px(event)));
+        else if (this.zoomed && Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+          const by = ((to - from) * event.deltaX) / width();
+          this.zoom([from + by, to + by]);
+        } else return;
+        event.preventDefault();
+      },
+      { passive: false },
+    );
   }
 
   // --- words, table, export ------------------------------------------------------------------------------------------------------------
   sentence() {
-    const data = this.held, title = `${TITLES[this.kind]}${data ? `, ${this.unit()}` : ""}`;
+    const data = this.held,
+      title = `${TITLES[this.kind]}${data ? `, ${this.unit()}` : ""}`;
     if (!data) return `${title}: waiting for samples`;
-    const [unit, per] = this.xUnit(data), ends = this.view.map((v) => short(v * per, 4));
-    const found = this.kind !== "envelope" ? [] : (data.lines ?? []).filter((line) => line.found)
-      .map((line) => `${line.name} at ${short(line.hz, 4)} Hz, nominal ${short(line.nominal_hz, 4)} Hz, ${line.harmonics} harmonics, ${short(line.over_noise_db, 3)} dB above the noise`);
+    const [unit, per] = this.xUnit(data),
+      ends = this.view.map((v) => short(v * per, 4));
+    const found =
+      this.kind !== "envelope"
+        ? []
+        : (data.lines ?? [])
+            .filter((line) => line.found)
+            .map(
+              (line) =>
+                `${line.name} at ${short(line.hz, 4)} Hz, nominal ${short(line.nominal_hz, 4)} Hz, ${line.harmonics} harmonics, ${short(line.over_noise_db, 3)} dB above the noise`,
+            );
     return `${title}. ${found.length ? `${found.join("; ")}. ` : this.kind === "envelope" && data.lines?.length ? "No frequency of the bearing is found. " : ""}Shown: ${ends[0]} to ${ends[1]} ${unit}.`;
   }
   describe() {
@@ -428,26 +563,55 @@ export class BrinellCurve extends PlotView {
     const data = this.held;
     if (!data || !this.details.open) return;
     const unit = spelled(data.unit),
-      read = (/** @type {Curve | null | undefined} */ curve, /** @type {number} */ x) => (curve?.values?.length ? short(curve.values[this.sample(curve, x)], 4) : "");
-    const others = /** @type {[string, Curve][]} */ ([[this.named(data, 1), data.second], ["healthy", data.behind]].filter(([, curve]) => curve));
+      read = (/** @type {Curve | null | undefined} */ curve, /** @type {number} */ x) =>
+        curve?.values?.length ? short(curve.values[this.sample(curve, x)], 4) : "";
+    const others = /** @type {[string, Curve][]} */ (
+      [
+        [this.named(data, 1), data.second],
+        ["healthy", data.behind],
+      ].filter(([, curve]) => curve)
+    );
     const heads = others.map(([name]) => `${name}, ${unit}`);
     if (this.kind === "waveform" || !data.lines?.length) {
-      const [from, to] = this.view, wave = this.kind === "waveform", xs = Array.from({ length: 21 }, (_, k) => from + (to - from) * k / 20);
-      fill(this.table, [wave ? "t, ms" : "Hz", `value, ${unit}`, ...heads],
-        xs.map((x) => [wave ? short(1000 * x, 6) : short(x, 5), read(data, x), ...others.map(([, curve]) => read(curve, x))]));
+      const [from, to] = this.view,
+        wave = this.kind === "waveform",
+        xs = Array.from({ length: 21 }, (_, k) => from + ((to - from) * k) / 20);
+      fill(
+        this.table,
+        [wave ? "t, ms" : "Hz", `value, ${unit}`, ...heads],
+        xs.map((x) => [
+          wave ? short(1000 * x, 6) : short(x, 5),
+          read(data, x),
+          ...others.map(([, curve]) => read(curve, x)),
+        ]),
+      );
       return;
     }
     const rows = this.marked(data).map(({ name, x, k, line }) => {
       const first = k === 1;
-      return [name, short(x, 5), short(k * line.nominal_hz, 5), read(data, x), ...others.map(([, curve]) => read(curve, x)),
-        first ? (line.found ? "found" : "not found") : "", first && line.found ? short(line.over_noise_db, 3) : ""];
+      return [
+        name,
+        short(x, 5),
+        short(k * line.nominal_hz, 5),
+        read(data, x),
+        ...others.map(([, curve]) => read(curve, x)),
+        first ? (line.found ? "found" : "not found") : "",
+        first && line.found ? short(line.over_noise_db, 3) : "",
+      ];
     });
     fill(this.table, ["line", "Hz", "nominal, Hz", `value, ${unit}`, ...heads, "state", "above noise, dB"], rows);
   }
   picture() {
-    const width = Math.max(480, this.clientWidth), height = Math.max(240, this.box.clientHeight + 30), data = this.held;
+    const width = Math.max(480, this.clientWidth),
+      height = Math.max(240, this.box.clientHeight + 30),
+      data = this.held;
     const paint = (/** @type {import("./pen.js").Pen} */ pen, /** @type {import("./theme.js").Colours} */ colours) => {
-      const frame = { left: ROOM.left + 6, top: 32, width: width - ROOM.left - 6 - ROOM.right - 8, height: height - 32 - ROOM.bottom - 6 };
+      const frame = {
+        left: ROOM.left + 6,
+        top: 32,
+        width: width - ROOM.left - 6 - ROOM.right - 8,
+        height: height - 32 - ROOM.bottom - 6,
+      };
       pen.fillStyle = colours.ink;
       pen.font = font(13, 600);
       pen.fillText(`${TITLES[this.kind]}, ${this.unit()}`, 10, 18);
@@ -463,7 +627,8 @@ export class BrinellCurve extends PlotView {
         pen.fill();
         x -= 30;
       }
-      const view = this.view, range = this.range;
+      const view = this.view,
+        range = this.range;
       if (data) {
         const axes = this.axes(data, frame.width, frame.height);
         paintAxes(pen, frame, axes, colours);

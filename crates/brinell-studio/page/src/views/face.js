@@ -24,7 +24,8 @@ const RADIAN = Math.PI / 180;
 /** Where along the surface the damage is, as arcs. @param {Damage} damage @param {Geometry} geometry @returns {Arc[]} */
 export function arcs(damage, geometry) {
   const on = damage.on.startsWith("outer") ? "outer" : damage.on.startsWith("inner") ? "inner" : "roller";
-  const radius = on === "outer" ? geometry.outer_mm : on === "inner" ? geometry.inner_mm : geometry.element_mm, centre = damage.center_deg * RADIAN;
+  const radius = on === "outer" ? geometry.outer_mm : on === "inner" ? geometry.inner_mm : geometry.element_mm,
+    centre = damage.center_deg * RADIAN;
   /** @type {[number, number][]} */
   const spans = [];
   const grid = damage.grid;
@@ -33,18 +34,30 @@ export function arcs(damage, geometry) {
     let from = -1;
     for (let c = 0; c <= grid.columns; c++) {
       let deep = false;
-      for (let r = 0; c < grid.columns && r < grid.rows && !deep; r++) deep = grid.depth_um[r * grid.columns + c] > LEAST * deepest;
+      for (let r = 0; c < grid.columns && r < grid.rows && !deep; r++)
+        deep = grid.depth_um[r * grid.columns + c] > LEAST * deepest;
       if (deep && from < 0) from = c;
-      if (!deep && from >= 0) { spans.push([grid.s0_mm + (from - 0.5) * grid.ds_mm, grid.s0_mm + (c - 0.5) * grid.ds_mm]); from = -1; }
+      if (!deep && from >= 0) {
+        spans.push([grid.s0_mm + (from - 0.5) * grid.ds_mm, grid.s0_mm + (c - 0.5) * grid.ds_mm]);
+        from = -1;
+      }
     }
   }
-  for (const polygon of grid ? [] : damage.polygons_mm ?? []) {
+  for (const polygon of grid ? [] : (damage.polygons_mm ?? [])) {
     let [low, high] = [Infinity, -Infinity];
-    for (let i = 0; i + 1 < polygon.length; i += 2) { low = Math.min(low, polygon[i]); high = Math.max(high, polygon[i]); }
+    for (let i = 0; i + 1 < polygon.length; i += 2) {
+      low = Math.min(low, polygon[i]);
+      high = Math.max(high, polygon[i]);
+    }
     if (high >= low) spans.push([low, high]);
   }
   if (!spans.length && damage.length_mm) spans.push([-damage.length_mm / 2, damage.length_mm / 2]);
-  return spans.map(([low, high]) => ({ on, roller: (damage.roller ?? 1) - 1, from: centre + low / radius, to: centre + high / radius }));
+  return spans.map(([low, high]) => ({
+    on,
+    roller: (damage.roller ?? 1) - 1,
+    from: centre + low / radius,
+    to: centre + high / radius,
+  }));
 }
 
 /** @param {Pen} pen @param {number} x @param {number} y @param {number} r @param {string} fill @param {string} stroke @param {number} [width] */
@@ -60,7 +73,10 @@ function disc(pen, x, y, r, fill, stroke, width = 1) {
 
 /** @param {Pen} pen @param {Stage} stage @param {Geometry} geometry @param {import("./motion.js").RowState} row @param {number} ring @param {Arc[]} damage */
 export function paintRow(pen, stage, geometry, row, ring, damage) {
-  const { x, y, scale, colours } = stage, { outer_mm: outer, inner_mm: inner } = geometry, thick = RING * outer, bore = Math.max(inner - thick, 0.2 * inner);
+  const { x, y, scale, colours } = stage,
+    { outer_mm: outer, inner_mm: inner } = geometry,
+    thick = RING * outer,
+    bore = Math.max(inner - thick, 0.2 * inner);
   pen.setLineDash([]);
   pen.lineCap = "butt";
   disc(pen, x, y, scale * (outer + thick), colours.steel, colours.frame);
@@ -89,7 +105,10 @@ function segment(pen, { x, y, scale }, from, to, angle, colour, width) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
   pen.strokeStyle = colour;
   pen.lineWidth = width;
-  path(pen, [from, to].map((r) => [x + scale * r * c, y - scale * r * s]));
+  path(
+    pen,
+    [from, to].map((r) => [x + scale * r * c, y - scale * r * s]),
+  );
   pen.stroke();
 }
 
@@ -101,15 +120,20 @@ function segment(pen, { x, y, scale }, from, to, angle, colour, width) {
  * @param {import("./motion.js").RowState} row
  */
 function paintForces(pen, stage, geometry, row) {
-  const { x, y, scale, colours, perNewton } = stage, wide = Math.max(2.5, Math.min(7, 0.5 * scale * geometry.element_mm));
-  for (const [forces, from, way, colour] of /** @type {[Float32Array, number, number, string][]} */ ([[row.outer, geometry.outer_mm, 1, colours.blue],
-    [row.inner, geometry.inner_mm, -1, colours.inner]])) {
+  const { x, y, scale, colours, perNewton } = stage,
+    wide = Math.max(2.5, Math.min(7, 0.5 * scale * geometry.element_mm));
+  for (const [forces, from, way, colour] of /** @type {[Float32Array, number, number, string][]} */ ([
+    [row.outer, geometry.outer_mm, 1, colours.blue],
+    [row.inner, geometry.inner_mm, -1, colours.inner],
+  ])) {
     pen.strokeStyle = colour;
     pen.lineWidth = wide;
     pen.beginPath();
     for (let e = 0; e < geometry.elements; e++) {
       if (!(forces[e] > 0)) continue;
-      const [c, s] = [Math.cos(row.orbit[e]), Math.sin(row.orbit[e])], r = scale * from, to = r + way * Math.min(forces[e] * perNewton, scale * RING * geometry.outer_mm);
+      const [c, s] = [Math.cos(row.orbit[e]), Math.sin(row.orbit[e])],
+        r = scale * from,
+        to = r + way * Math.min(forces[e] * perNewton, scale * RING * geometry.outer_mm);
       pen.moveTo(x + r * c, y - r * s);
       pen.lineTo(x + to * c, y - to * s);
     }
@@ -119,11 +143,18 @@ function paintForces(pen, stage, geometry, row) {
 
 /** Bars of the cage, between the pockets. @param {Pen} pen @param {Stage} stage @param {Geometry} geometry @param {import("./motion.js").RowState} row */
 function paintCage(pen, { x, y, scale, colours }, geometry, row) {
-  const n = geometry.elements, pitch = 2 * Math.PI / n, half = pitch / 2 - 1.08 * Math.asin(Math.min(geometry.element_mm / geometry.pitch_mm, 1));
+  const n = geometry.elements,
+    pitch = (2 * Math.PI) / n,
+    half = pitch / 2 - 1.08 * Math.asin(Math.min(geometry.element_mm / geometry.pitch_mm, 1));
   // The pockets are evenly spaced on the cage; their offset is that of the rollers in them.
   let [c, s] = [0, 0];
-  for (let e = 0; e < n; e++) { const a = n * (row.orbit[e] - row.cage); c += Math.cos(a); s += Math.sin(a); }
-  const offset = Math.atan2(s, c) / n, r = scale * geometry.pitch_mm;
+  for (let e = 0; e < n; e++) {
+    const a = n * (row.orbit[e] - row.cage);
+    c += Math.cos(a);
+    s += Math.sin(a);
+  }
+  const offset = Math.atan2(s, c) / n,
+    r = scale * geometry.pitch_mm;
   pen.strokeStyle = colours.cage;
   pen.lineWidth = Math.max(2, 0.5 * scale * geometry.element_mm);
   pen.beginPath();
@@ -143,17 +174,22 @@ function paintCage(pen, { x, y, scale, colours }, geometry, row) {
  * @param {import("./motion.js").RowState} row
  */
 function paintElements(pen, { x, y, scale, colours, perNewton }, geometry, row) {
-  const radius = scale * geometry.element_mm, full = scale * RING * geometry.outer_mm, n = geometry.elements;
+  const radius = scale * geometry.element_mm,
+    full = scale * RING * geometry.outer_mm,
+    n = geometry.elements;
   const px = (/** @type {number} */ e) => x + scale * geometry.pitch_mm * Math.cos(row.orbit[e]),
     py = (/** @type {number} */ e) => y - scale * geometry.pitch_mm * Math.sin(row.orbit[e]);
-  const round = (/** @type {number} */ e, /** @type {number} */ r) => { pen.moveTo(px(e) + r, py(e)); pen.arc(px(e), py(e), r, 0, 2 * Math.PI); };
+  const round = (/** @type {number} */ e, /** @type {number} */ r) => {
+    pen.moveTo(px(e) + r, py(e));
+    pen.arc(px(e), py(e), r, 0, 2 * Math.PI);
+  };
   pen.beginPath();
   for (let e = 0; e < n; e++) round(e, radius);
   pen.fillStyle = colours.roller;
   pen.fill();
   pen.fillStyle = colours.blue;
   for (let e = 0; e < n; e++) {
-    const share = Math.min(1, Math.max(row.inner[e], row.outer[e]) * perNewton / full);
+    const share = Math.min(1, (Math.max(row.inner[e], row.outer[e]) * perNewton) / full);
     if (!(share > 0.02)) continue;
     pen.globalAlpha = 0.6 * share;
     pen.beginPath();
@@ -186,11 +222,19 @@ function paintDamage(pen, { x, y, scale, colours }, geometry, row, ring, damage)
     if (arc.on === "roller") {
       if (!(arc.roller >= 0 && arc.roller < geometry.elements)) continue;
       const a = row.orbit[arc.roller];
-      [cx, cy, radius, turned] = [x + scale * geometry.pitch_mm * Math.cos(a), y - scale * geometry.pitch_mm * Math.sin(a), geometry.element_mm, row.spin[arc.roller]];
+      [cx, cy, radius, turned] = [
+        x + scale * geometry.pitch_mm * Math.cos(a),
+        y - scale * geometry.pitch_mm * Math.sin(a),
+        geometry.element_mm,
+        row.spin[arc.roller],
+      ];
     }
     // Narrow damage stays visible.
-    const least = 3 / (scale * radius), half = Math.max((arc.to - arc.from) / 2, least), middle = turned + (arc.from + arc.to) / 2;
-    const wide = arc.on === "roller" ? 3.5 : 5, out = arc.on === "outer" ? wide / 2 - 0.5 : arc.on === "inner" ? 0.5 - wide / 2 : 0;
+    const least = 3 / (scale * radius),
+      half = Math.max((arc.to - arc.from) / 2, least),
+      middle = turned + (arc.from + arc.to) / 2;
+    const wide = arc.on === "roller" ? 3.5 : 5,
+      out = arc.on === "outer" ? wide / 2 - 0.5 : arc.on === "inner" ? 0.5 - wide / 2 : 0;
     pen.lineWidth = wide;
     pen.beginPath();
     pen.arc(cx, cy, scale * radius + out, -middle - half, -middle + half);
@@ -201,9 +245,13 @@ function paintDamage(pen, { x, y, scale, colours }, geometry, row, ring, damage)
 
 /** An arrow in the bore that points where the load does. @param {Pen} pen @param {Stage} stage @param {Geometry} geometry @param {number} degrees */
 export function paintLoad(pen, { x, y, scale, colours }, geometry, degrees) {
-  const bore = scale * Math.max(geometry.inner_mm - RING * geometry.outer_mm, 0.2 * geometry.inner_mm), a = degrees * RADIAN, [c, s] = [Math.cos(a), -Math.sin(a)];
-  const tip = 0.86 * bore, head = Math.max(6, 0.16 * bore),
-    at = (/** @type {number} */ along, /** @type {number} */ aside) => /** @type {[number, number]} */ ([x + along * c - aside * s, y + along * s + aside * c]);
+  const bore = scale * Math.max(geometry.inner_mm - RING * geometry.outer_mm, 0.2 * geometry.inner_mm),
+    a = degrees * RADIAN,
+    [c, s] = [Math.cos(a), -Math.sin(a)];
+  const tip = 0.86 * bore,
+    head = Math.max(6, 0.16 * bore),
+    at = (/** @type {number} */ along, /** @type {number} */ aside) =>
+      /** @type {[number, number]} */ ([x + along * c - aside * s, y + along * s + aside * c]);
   pen.strokeStyle = pen.fillStyle = colours.text;
   pen.lineWidth = 2;
   path(pen, [at(0, 0), at(tip - head, 0)]);
@@ -233,14 +281,26 @@ export function paintLoad(pen, { x, y, scale, colours }, geometry, degrees) {
  * @param {boolean} damaged
  */
 export function paintLegend(pen, left, top, width, colours, full, damaged) {
-  const items = /** @type {[string, string][]} */ ([[colours.blue, "outer contact force"], [colours.inner, "inner"], ...(damaged ? [[colours.damage, "damage"]] : []),
-    ["", `full bar ${full}`]]);
+  const items = /** @type {[string, string][]} */ ([
+    [colours.blue, "outer contact force"],
+    [colours.inner, "inner"],
+    ...(damaged ? [[colours.damage, "damage"]] : []),
+    ["", `full bar ${full}`],
+  ]);
   let [x, y] = [left, top + 11];
   for (const [colour, words] of items) {
     const wide = (colour ? 14 : 0) + breadth(words, 11) + 14;
-    if (x > left && x + wide - 14 > left + width) { x = left; y += 15; }
+    if (x > left && x + wide - 14 > left + width) {
+      x = left;
+      y += 15;
+    }
     if (pen) {
-      if (colour) { pen.fillStyle = colour; pen.beginPath(); pen.rect(x, y - 6, 10, 4); pen.fill(); }
+      if (colour) {
+        pen.fillStyle = colour;
+        pen.beginPath();
+        pen.rect(x, y - 6, 10, 4);
+        pen.fill();
+      }
       pen.fillStyle = colours.faint;
       pen.font = font(11);
       pen.fillText(words, x + (colour ? 14 : 0), y);

@@ -34,18 +34,32 @@ export class Motion {
     this.fresh = 0;
     this.largest = 0;
     /** @type {State} */
-    this.state = { ring: 0, largest: 0,
-      rows: Array.from({ length: rows },
-        () => ({ cage: 0, orbit: new Float32Array(elements), spin: new Float32Array(elements), inner: new Float32Array(elements), outer: new Float32Array(elements) })) };
+    this.state = {
+      ring: 0,
+      largest: 0,
+      rows: Array.from({ length: rows }, () => ({
+        cage: 0,
+        orbit: new Float32Array(elements),
+        spin: new Float32Array(elements),
+        inner: new Float32Array(elements),
+        outer: new Float32Array(elements),
+      })),
+    };
   }
 
   /** Takes frames in. @param {Frames} frames */
   push(frames) {
     // An answer about another bearing may still arrive.
-    if (frames.count < 1 || frames.rows.length !== this.rows || frames.rows[0].orbit.length !== frames.count * this.elements) return;
+    if (
+      frames.count < 1 ||
+      frames.rows.length !== this.rows ||
+      frames.rows[0].orbit.length !== frames.count * this.elements
+    )
+      return;
     if (this.dt && Math.abs(frames.dt - this.dt) > 1e-6 * this.dt) this.length = this.fresh = 0;
     this.dt = frames.dt;
-    const n = this.elements, { buffer, stride } = this;
+    const n = this.elements,
+      { buffer, stride } = this;
     for (let k = 0; k < frames.count; k++) {
       const base = this.next * stride;
       buffer[base] = frames.ring[k];
@@ -69,11 +83,14 @@ export class Motion {
   /** @param {Frames} frames */
   apart(frames) {
     if (frames.count < 2) return false;
-    const last = ((this.next - 1 + CAPACITY) % CAPACITY) * this.stride, step = wrap(frames.ring[1] - frames.ring[0]);
+    const last = ((this.next - 1 + CAPACITY) % CAPACITY) * this.stride,
+      step = wrap(frames.ring[1] - frames.ring[0]);
     return Math.abs(wrap(frames.ring[0] - this.buffer[last]) - step) > 0.5 * Math.abs(step) + 1e-4;
   }
   /** Start of the frame that is this many before the newest. @param {number} back */
-  base(back) { return ((this.next - 1 - back + 2 * CAPACITY) % CAPACITY) * this.stride; }
+  base(back) {
+    return ((this.next - 1 - back + 2 * CAPACITY) % CAPACITY) * this.stride;
+  }
   /** Frames in one turn of the shaft, of the newest ones. */
   perTurn() {
     if (this.length < 2) return Infinity;
@@ -88,7 +105,8 @@ export class Motion {
   take(turns = TURNS) {
     if (!this.length) return false;
     // Not beyond the latest edit, once there is enough after it.
-    const turn = Math.min(Math.ceil(this.perTurn()), this.length), renewed = this.fresh >= 1.5 * turn,
+    const turn = Math.min(Math.ceil(this.perTurn()), this.length),
+      renewed = this.fresh >= 1.5 * turn,
       far = Math.min(this.length, turns * turn, renewed ? this.fresh : Infinity) - 1;
     const near = far >= 2 * turn ? turn : Math.floor(far / 3);
     let start = far;
@@ -96,7 +114,10 @@ export class Motion {
       let best = Infinity;
       for (let back = far; back >= near; back--) {
         const cost = this.unlike(this.base(back));
-        if (cost < best) { best = cost; start = back; }
+        if (cost < best) {
+          best = cost;
+          start = back;
+        }
       }
     }
     this.frames = start + 1;
@@ -112,7 +133,8 @@ export class Motion {
   }
   /** The largest force in a frame of the clip. @param {number} k */
   forces(k) {
-    const clip = /** @type {Float32Array} */ (this.clip), n = this.elements;
+    const clip = /** @type {Float32Array} */ (this.clip),
+      n = this.elements;
     let most = 0;
     for (let r = 0; r < this.rows; r++) {
       const from = k * this.stride + 2 + r * (1 + 4 * n) + 1 + 2 * n;
@@ -122,9 +144,12 @@ export class Motion {
   }
   /** How far a frame in the buffer is from what is shown: the ring's angle, and the cage's within a pocket. @param {number} base */
   unlike(base) {
-    const pocket = TAU / this.elements, row = this.state.rows[0];
+    const pocket = TAU / this.elements,
+      row = this.state.rows[0];
     const cage = this.buffer[base + 2] - row.cage;
-    return Math.abs(wrap(this.buffer[base] - this.state.ring)) + 2 * Math.abs(cage - pocket * Math.round(cage / pocket));
+    return (
+      Math.abs(wrap(this.buffer[base] - this.state.ring)) + 2 * Math.abs(cage - pocket * Math.round(cage / pocket))
+    );
   }
   /** Goes on by this much simulated time, s. @param {number} time */
   go(time) {
@@ -143,18 +168,26 @@ export class Motion {
   show(at) {
     const clip = this.clip;
     if (!clip) return;
-    const n = this.elements, k = Math.min(Math.floor(at), this.frames - 1), a = k * this.stride, next = k + 1 < this.frames && !clip[(k + 1) * this.stride + 1];
-    const b = next ? a + this.stride : a, f = next ? at - k : 0, state = this.state;
+    const n = this.elements,
+      k = Math.min(Math.floor(at), this.frames - 1),
+      a = k * this.stride,
+      next = k + 1 < this.frames && !clip[(k + 1) * this.stride + 1];
+    const b = next ? a + this.stride : a,
+      f = next ? at - k : 0,
+      state = this.state;
     const turn = (/** @type {number} */ i, /** @type {number} */ j) => clip[i] + f * wrap(clip[j] - clip[i]);
     state.ring = turn(a, b);
     state.largest = 0;
     for (let r = 0; r < this.rows; r++) {
-      const row = state.rows[r], i = a + 2 + r * (1 + 4 * n), j = i + b - a;
+      const row = state.rows[r],
+        i = a + 2 + r * (1 + 4 * n),
+        j = i + b - a;
       row.cage = turn(i, j);
       for (let e = 0; e < n; e++) {
         row.orbit[e] = turn(i + 1 + e, j + 1 + e);
         row.spin[e] = turn(i + 1 + n + e, j + 1 + n + e);
-        const [p, q] = [i + 1 + 2 * n + e, i + 1 + 3 * n + e], d = j - i;
+        const [p, q] = [i + 1 + 2 * n + e, i + 1 + 3 * n + e],
+          d = j - i;
         row.inner[e] = Math.max(0, clip[p] + f * (clip[p + d] - clip[p]));
         row.outer[e] = Math.max(0, clip[q] + f * (clip[q + d] - clip[q]));
         state.largest = Math.max(state.largest, row.inner[e], row.outer[e]);

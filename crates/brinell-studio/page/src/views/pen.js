@@ -25,10 +25,20 @@ export function breadth(text, size, weight = 400) {
 }
 
 const number = (/** @type {number} */ v) => String(Math.round(100 * v) / 100);
-const escape = (/** @type {string} */ text) => text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c] ?? c);
+const escape = (/** @type {string} */ text) =>
+  text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c] ?? c);
 
-const START = { fillStyle: "#000", strokeStyle: "#000", lineWidth: 1, globalAlpha: 1, font: font(12), textAlign: "start", textBaseline: "alphabetic", lineCap: "butt",
-  lineJoin: "miter" };
+const START = {
+  fillStyle: "#000",
+  strokeStyle: "#000",
+  lineWidth: 1,
+  globalAlpha: 1,
+  font: font(12),
+  textAlign: "start",
+  textBaseline: "alphabetic",
+  lineCap: "butt",
+  lineJoin: "miter",
+};
 const ANCHOR = /** @type {Record<string, string>} */ ({ center: "middle", right: "end", end: "end" });
 const BASELINE = /** @type {Record<string, number>} */ ({ middle: 0.36, top: 0.8, hanging: 0.8 });
 const KEPT = /** @type {(keyof typeof START)[]} */ (Object.keys(START));
@@ -62,37 +72,60 @@ export class SvgPen {
     /** @type {string[]} */
     this.parts = [
       `<svg xmlns="http://www.w3.org/2000/svg" width="${number(width)}" height="${number(height)}" viewBox="0 0 ${number(width)} ${number(height)}" role="img">`,
-      `<title>${escape(title)}</title>`, `<rect width="100%" height="100%" fill="${ground}"/>`,
+      `<title>${escape(title)}</title>`,
+      `<rect width="100%" height="100%" fill="${ground}"/>`,
     ];
   }
-  beginPath() { this.path = ""; }
+  beginPath() {
+    this.path = "";
+  }
   /** @param {number} x @param {number} y */
-  moveTo(x, y) { this.path += `M${number(x)} ${number(y)}`; }
+  moveTo(x, y) {
+    this.path += `M${number(x)} ${number(y)}`;
+  }
   /** @param {number} x @param {number} y */
-  lineTo(x, y) { this.path += `${this.path ? "L" : "M"}${number(x)} ${number(y)}`; }
-  closePath() { this.path += "Z"; }
+  lineTo(x, y) {
+    this.path += `${this.path ? "L" : "M"}${number(x)} ${number(y)}`;
+  }
+  closePath() {
+    this.path += "Z";
+  }
   /** @param {number} x @param {number} y @param {number} w @param {number} h */
-  rect(x, y, w, h) { this.path += `M${number(x)} ${number(y)}h${number(w)}v${number(h)}h${number(-w)}Z`; }
+  rect(x, y, w, h) {
+    this.path += `M${number(x)} ${number(y)}h${number(w)}v${number(h)}h${number(-w)}Z`;
+  }
   /** @param {number} x @param {number} y @param {number} r @param {number} from @param {number} to @param {boolean} [back] */
   arc(x, y, r, from, to, back = false) {
     const full = Math.abs(to - from) >= 2 * Math.PI - 1e-9;
     const at = (/** @type {number} */ a) => [x + r * Math.cos(a), y + r * Math.sin(a)];
-    const sweep = back ? 0 : 1, middle = at(full ? from + Math.PI : to), end = at(from);
-    const curve = (/** @type {number[]} */ p, /** @type {number} */ large) => `A${number(r)} ${number(r)} 0 ${large} ${sweep} ${number(p[0])} ${number(p[1])}`;
+    const sweep = back ? 0 : 1,
+      middle = at(full ? from + Math.PI : to),
+      end = at(from);
+    const curve = (/** @type {number[]} */ p, /** @type {number} */ large) =>
+      `A${number(r)} ${number(r)} 0 ${large} ${sweep} ${number(p[0])} ${number(p[1])}`;
     this.lineTo(end[0], end[1]);
     this.path += full ? curve(middle, 0) + curve(end, 0) : curve(middle, Math.abs(to - from) > Math.PI ? 1 : 0);
   }
   /** @param {number[]} dash */
-  setLineDash(dash) { this.dash = dash; }
+  setLineDash(dash) {
+    this.dash = dash;
+  }
   stroke() {
     if (!this.path) return;
     const dash = this.dash.length ? ` stroke-dasharray="${this.dash.map(number).join(" ")}"` : "";
-    const ends = (this.lineCap === "butt" ? "" : ` stroke-linecap="${this.lineCap}"`) + (this.lineJoin === "miter" ? "" : ` stroke-linejoin="${this.lineJoin}"`);
-    this.parts.push(`<path d="${this.path}" fill="none" stroke="${this.strokeStyle}" stroke-width="${number(this.lineWidth)}"${dash}${ends}${this.alpha()}/>`);
+    const ends =
+      (this.lineCap === "butt" ? "" : ` stroke-linecap="${this.lineCap}"`) +
+      (this.lineJoin === "miter" ? "" : ` stroke-linejoin="${this.lineJoin}"`);
+    this.parts.push(
+      `<path d="${this.path}" fill="none" stroke="${this.strokeStyle}" stroke-width="${number(this.lineWidth)}"${dash}${ends}${this.alpha()}/>`,
+    );
   }
   /** @param {any} [rule] */
   fill(rule) {
-    if (this.path) this.parts.push(`<path d="${this.path}" fill="${this.fillStyle}"${rule === "evenodd" ? ' fill-rule="evenodd"' : ""}${this.alpha()}/>`);
+    if (this.path)
+      this.parts.push(
+        `<path d="${this.path}" fill="${this.fillStyle}"${rule === "evenodd" ? ' fill-rule="evenodd"' : ""}${this.alpha()}/>`,
+      );
   }
   clip() {
     const id = `clip${++this.clips}`;
@@ -102,13 +135,20 @@ export class SvgPen {
   /** @param {string} text @param {number} x @param {number} y */
   fillText(text, x, y) {
     const [, weight, size] = /(\d+) ([\d.]+)px/.exec(this.font) ?? ["", "400", "12"];
-    const anchor = ANCHOR[this.textAlign], down = (BASELINE[this.textBaseline] ?? 0) * Number(size);
+    const anchor = ANCHOR[this.textAlign],
+      down = (BASELINE[this.textBaseline] ?? 0) * Number(size);
     const more = (anchor ? ` text-anchor="${anchor}"` : "") + (weight === "400" ? "" : ` font-weight="${weight}"`);
-    this.parts.push(`<text x="${number(x)}" y="${number(y + down)}" font-family="${escape(FAMILY)}" font-size="${size}" fill="${this.fillStyle}"${more}${this.alpha()}>${escape(text)}</text>`);
+    this.parts.push(
+      `<text x="${number(x)}" y="${number(y + down)}" font-family="${escape(FAMILY)}" font-size="${size}" fill="${this.fillStyle}"${more}${this.alpha()}>${escape(text)}</text>`,
+    );
   }
   save() {
     const own = /** @type {any} */ (this);
-    this.stack.push({ state: Object.fromEntries(KEPT.map((key) => [key, own[key]])), dash: this.dash, groups: this.groups });
+    this.stack.push({
+      state: Object.fromEntries(KEPT.map((key) => [key, own[key]])),
+      dash: this.dash,
+      groups: this.groups,
+    });
   }
   restore() {
     const back = this.stack.pop();
@@ -117,8 +157,12 @@ export class SvgPen {
     Object.assign(this, back.state);
     this.dash = back.dash;
   }
-  alpha() { return this.globalAlpha === 1 ? "" : ` opacity="${number(this.globalAlpha)}"`; }
-  text() { return [...this.parts, "</g>".repeat(this.groups), "</svg>"].join("\n"); }
+  alpha() {
+    return this.globalAlpha === 1 ? "" : ` opacity="${number(this.globalAlpha)}"`;
+  }
+  text() {
+    return [...this.parts, "</g>".repeat(this.groups), "</svg>"].join("\n");
+  }
 }
 
 /**
@@ -130,7 +174,8 @@ export class SvgPen {
  * @returns {Promise<Blob>}
  */
 export function png(width, height, ground, paint) {
-  const canvas = document.createElement("canvas"), pen = canvas.getContext("2d");
+  const canvas = document.createElement("canvas"),
+    pen = canvas.getContext("2d");
   canvas.width = Math.round(2 * width);
   canvas.height = Math.round(2 * height);
   if (!pen) return Promise.reject(new Error("this browser gives no canvas to draw on"));
@@ -138,5 +183,10 @@ export function png(width, height, ground, paint) {
   pen.fillStyle = ground;
   pen.fillRect(0, 0, width, height);
   paint(pen);
-  return new Promise((done, fail) => canvas.toBlob((blob) => (blob ? done(blob) : fail(new Error("the picture could not be written as PNG"))), "image/png"));
+  return new Promise((done, fail) =>
+    canvas.toBlob(
+      (blob) => (blob ? done(blob) : fail(new Error("the picture could not be written as PNG"))),
+      "image/png",
+    ),
+  );
 }

@@ -24,13 +24,24 @@ export class PlotView extends View {
     this.canvas = h("canvas", { "aria-hidden": "true" });
     this.readout = h("span", { class: "readout" });
     this.empty = h("div", { class: "empty" }, none);
-    this.box = h("div", { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": help }, this.canvas, this.empty);
+    this.box = h(
+      "div",
+      { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": help },
+      this.canvas,
+      this.empty,
+    );
     this.said = h("div", { class: "hidden", role: "status" });
     this.table = h("table");
-    this.details = h("details", {}, h("summary", {}, "Values"),
-      h("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table));
+    this.details = h(
+      "details",
+      {},
+      h("summary", {}, "Values"),
+      h("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table),
+    );
     this.root.append(this.box, h("div", { class: "foot" }, this.details, this.readout), this.said);
-    this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
+    this.speakSoon = seldom(300, () => {
+      this.said.textContent = this.readout.textContent;
+    });
     this.details.addEventListener("toggle", () => this.tabulate());
     this.box.addEventListener("blur", () => this.point(null));
     this.box.addEventListener("keydown", (event) => {
@@ -48,27 +59,37 @@ export class PlotView extends View {
   /** Where the cursor is; null takes it away. @param {number | null} _place */
   point(_place) {}
   /** What a key does. @param {KeyboardEvent} _event @returns {(() => void) | undefined} */
-  key(_event) { return undefined; }
+  key(_event) {
+    return undefined;
+  }
   tabulate() {}
 }
 
 /** @param {Pen} pen @param {Frame} frame @param {Axes} axes @param {Colours} colours @param {(px: number) => number} [sharp] where a line of the grid is drawn */
 export function paintAxes(pen, frame, axes, colours, sharp = (px) => px) {
-  const { left, top, width, height } = frame, right = left + width, bottom = top + height;
+  const { left, top, width, height } = frame,
+    right = left + width,
+    bottom = top + height;
   pen.strokeStyle = colours.grid;
   pen.lineWidth = 1;
   pen.fillStyle = colours.faint;
   pen.font = font(11);
   for (const [v, label] of axes.xTicks) {
-    const x = left + width * (v - axes.x[0]) / (axes.x[1] - axes.x[0]);
-    path(pen, [[sharp(x), top], [sharp(x), bottom]]);
+    const x = left + (width * (v - axes.x[0])) / (axes.x[1] - axes.x[0]);
+    path(pen, [
+      [sharp(x), top],
+      [sharp(x), bottom],
+    ]);
     pen.stroke();
     pen.textAlign = "center";
     if (label) pen.fillText(label, x, bottom + 15);
   }
   for (const [v, label] of axes.yTicks) {
-    const y = bottom - height * (v - axes.y[0]) / (axes.y[1] - axes.y[0]);
-    path(pen, [[left, sharp(y)], [right, sharp(y)]]);
+    const y = bottom - (height * (v - axes.y[0])) / (axes.y[1] - axes.y[0]);
+    path(pen, [
+      [left, sharp(y)],
+      [right, sharp(y)],
+    ]);
     pen.stroke();
     pen.textAlign = "right";
     pen.fillText(label, left - 5, y + 4);

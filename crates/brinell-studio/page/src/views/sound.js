@@ -21,7 +21,9 @@ label input { width: 110px; }
 
 /** A source that repeats the loop; rates that a browser may refuse are played through the pace of the source. @param {BaseAudioContext} context @param {Loop} loop */
 function source(context, loop) {
-  const rate = Math.min(Math.max(loop.rate_hz, RATES[0]), RATES[1]), buffer = context.createBuffer(1, loop.x.length, rate), node = context.createBufferSource();
+  const rate = Math.min(Math.max(loop.rate_hz, RATES[0]), RATES[1]),
+    buffer = context.createBuffer(1, loop.x.length, rate),
+    node = context.createBufferSource();
   buffer.getChannelData(0).set(loop.x);
   node.buffer = buffer;
   node.loop = true;
@@ -46,7 +48,9 @@ export class BrinellSound extends View {
     this.slider = h("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.6" });
     this.told = h("span", { class: "told" });
     this.root.append(this.button, h("label", {}, "volume", this.slider), this.told);
-    this.button.addEventListener("click", () => { void this.hear(!this.hearing); });
+    this.button.addEventListener("click", () => {
+      void this.hear(!this.hearing);
+    });
     this.slider.addEventListener("input", () => this.level());
     this.tell();
   }
@@ -57,7 +61,9 @@ export class BrinellSound extends View {
     this.context = this.volume = null;
   }
   /** @returns {Loop | null} */
-  get loop() { return this.held; }
+  get loop() {
+    return this.held;
+  }
   set loop(loop) {
     this.held = loop && loop.x?.length > 1 && loop.rate_hz > 0 ? loop : null;
     if (this.hearing) this.exchange();
@@ -85,21 +91,28 @@ export class BrinellSound extends View {
   }
   level() {
     // A squared slider is nearer to what is heard as half as loud.
-    if (this.volume && this.context) this.volume.gain.setTargetAtTime(Number(this.slider.value) ** 2, this.context.currentTime, 0.015);
+    if (this.volume && this.context)
+      this.volume.gain.setTargetAtTime(Number(this.slider.value) ** 2, this.context.currentTime, 0.015);
     this.slider.setAttribute("aria-valuetext", `${Math.round(100 * Number(this.slider.value))} %`);
   }
   /** The newest loop takes over from the one that sounds; while one gives way, the next waits. */
   exchange() {
     const { context, volume, held, voice } = this;
     if (!context || !volume || !held || voice?.loop === held || this.fading) return;
-    const now = context.currentTime, node = source(context, held), gain = context.createGain(), turn = held.x.length / held.rate_hz;
+    const now = context.currentTime,
+      node = source(context, held),
+      gain = context.createGain(),
+      turn = held.x.length / held.rate_hz;
     node.connect(gain).connect(volume);
     gain.gain.setValueAtTime(0, now);
     gain.gain.linearRampToValueAtTime(1, now + FADE);
     node.start(now, node.buffer ? ((now - (voice?.since ?? now)) % turn) * node.playbackRate.value : 0);
     if (voice) this.fade(voice, now);
     this.voice = { node, gain, loop: held, since: voice?.since ?? now };
-    this.fading = window.setTimeout(() => { this.fading = 0; if (this.hearing) this.exchange(); }, 1000 * FADE);
+    this.fading = window.setTimeout(() => {
+      this.fading = 0;
+      if (this.hearing) this.exchange();
+    }, 1000 * FADE);
   }
   /** @param {{ node: AudioBufferSourceNode, gain: GainNode }} voice @param {number} now */
   fade(voice, now) {
@@ -107,7 +120,10 @@ export class BrinellSound extends View {
     voice.gain.gain.setValueAtTime(voice.gain.gain.value, now);
     voice.gain.gain.linearRampToValueAtTime(0, now + FADE);
     voice.node.stop(now + FADE + 0.01);
-    voice.node.onended = () => { voice.node.disconnect(); voice.gain.disconnect(); };
+    voice.node.onended = () => {
+      voice.node.disconnect();
+      voice.gain.disconnect();
+    };
   }
   silence() {
     clearTimeout(this.fading);
@@ -117,22 +133,35 @@ export class BrinellSound extends View {
     if (!context) return;
     if (voice) this.fade(voice, context.currentTime);
     // The context rests once the fade is over.
-    setTimeout(() => { if (!this.hearing && context.state === "running") void context.suspend(); }, 2000 * FADE);
+    setTimeout(() => {
+      if (!this.hearing && context.state === "running") void context.suspend();
+    }, 2000 * FADE);
   }
   tell() {
-    const loop = this.held, length = loop ? loop.x.length / loop.rate_hz : 0;
+    const loop = this.held,
+      length = loop ? loop.x.length / loop.rate_hz : 0;
     this.button.setAttribute("aria-pressed", String(this.hearing));
     this.dataset.state = this.hearing ? (this.voice ? "sounding" : "waiting") : "silent";
-    this.told.textContent = loop ? `${loop.turns ? `${loop.turns} turns, ` : ""}${short(length, 2)} s, looped at real pace`
-      : this.hearing ? "waiting for whole turns" : "";
+    this.told.textContent = loop
+      ? `${loop.turns ? `${loop.turns} turns, ` : ""}${short(length, 2)} s, looped at real pace`
+      : this.hearing
+        ? "waiting for whole turns"
+        : "";
   }
   /** What is heard as a file: WAV, mono, 16 bits. @returns {Blob | null} */
   wav() {
     const loop = this.held;
     if (!loop) return null;
-    const { x } = loop, rate = Math.round(loop.rate_hz), count = x.length * Math.ceil(SAVED_S * rate / x.length), view = new DataView(new ArrayBuffer(44 + 2 * count));
-    const words = (/** @type {number} */ at, /** @type {string} */ text) => [...text].forEach((c, k) => view.setUint8(at + k, c.charCodeAt(0)));
-    const [u16, u32] = [(/** @type {number} */ at, /** @type {number} */ v) => view.setUint16(at, v, true), (/** @type {number} */ at, /** @type {number} */ v) => view.setUint32(at, v, true)];
+    const { x } = loop,
+      rate = Math.round(loop.rate_hz),
+      count = x.length * Math.ceil((SAVED_S * rate) / x.length),
+      view = new DataView(new ArrayBuffer(44 + 2 * count));
+    const words = (/** @type {number} */ at, /** @type {string} */ text) =>
+      [...text].forEach((c, k) => view.setUint8(at + k, c.charCodeAt(0)));
+    const [u16, u32] = [
+      (/** @type {number} */ at, /** @type {number} */ v) => view.setUint16(at, v, true),
+      (/** @type {number} */ at, /** @type {number} */ v) => view.setUint32(at, v, true),
+    ];
     words(0, "RIFF");
     u32(4, 36 + 2 * count);
     words(8, "WAVEfmt ");
@@ -151,7 +180,8 @@ export class BrinellSound extends View {
   }
   /** What is heard of a loop, rendered without a loudspeaker. @param {Loop} loop @param {number} [seconds] @returns {Promise<AudioBuffer>} */
   static render(loop, seconds = 1) {
-    const rate = Math.min(Math.max(loop.rate_hz, RATES[0]), RATES[1]), context = new OfflineAudioContext(1, Math.round(seconds * rate), rate),
+    const rate = Math.min(Math.max(loop.rate_hz, RATES[0]), RATES[1]),
+      context = new OfflineAudioContext(1, Math.round(seconds * rate), rate),
       node = source(context, loop);
     node.connect(context.destination);
     node.start();

@@ -3,24 +3,59 @@
 /** @typedef {Record<keyof typeof LIGHT, string>} Colours */
 
 export const LIGHT = {
-  ground: "#ffffff", wash: "#f5f7f9", ink: "#1b1f24", text: "#3a424c", faint: "#5f6973", line: "#dfe3e8", grid: "#e9ecf0", frame: "#9aa4ae", warn: "#b34700",
-  blue: "#0072b2", second: "#c25400", healthy: "#a9b3bd",
-  steel: "#e6eaee", cage: "#8b95a0", roller: "#ffffff", inner: "#00705a", damage: "#d04a00",
-  bpfo: "#00705a", bpfi: "#7a3f9d", bsf: "#a3005c", ftf: "#6a5600",
+  ground: "#ffffff",
+  wash: "#f5f7f9",
+  ink: "#1b1f24",
+  text: "#3a424c",
+  faint: "#5f6973",
+  line: "#dfe3e8",
+  grid: "#e9ecf0",
+  frame: "#9aa4ae",
+  warn: "#b34700",
+  blue: "#0072b2",
+  second: "#c25400",
+  healthy: "#a9b3bd",
+  steel: "#e6eaee",
+  cage: "#8b95a0",
+  roller: "#ffffff",
+  inner: "#00705a",
+  damage: "#d04a00",
+  bpfo: "#00705a",
+  bpfi: "#7a3f9d",
+  bsf: "#a3005c",
+  ftf: "#6a5600",
 };
 
 /** @type {Colours} */
 export const DARK = {
-  ground: "#14181d", wash: "#1b2027", ink: "#eef1f4", text: "#c9d0d8", faint: "#98a2ad", line: "#333b44", grid: "#232a32", frame: "#66717c", warn: "#ff9a5c",
-  blue: "#5db4ec", second: "#ffa05c", healthy: "#56616c",
-  steel: "#2b333c", cage: "#7d8893", roller: "#161b21", inner: "#4fd0a8", damage: "#ff7a3d",
-  bpfo: "#4fd0a8", bpfi: "#c9a0f0", bsf: "#ff8fb8", ftf: "#d8c46a",
+  ground: "#14181d",
+  wash: "#1b2027",
+  ink: "#eef1f4",
+  text: "#c9d0d8",
+  faint: "#98a2ad",
+  line: "#333b44",
+  grid: "#232a32",
+  frame: "#66717c",
+  warn: "#ff9a5c",
+  blue: "#5db4ec",
+  second: "#ffa05c",
+  healthy: "#56616c",
+  steel: "#2b333c",
+  cage: "#7d8893",
+  roller: "#161b21",
+  inner: "#4fd0a8",
+  damage: "#ff7a3d",
+  bpfo: "#4fd0a8",
+  bpfi: "#c9a0f0",
+  bsf: "#ff8fb8",
+  ftf: "#d8c46a",
 };
 
 const NAMES = /** @type {(keyof Colours)[]} */ (Object.keys(LIGHT));
 
 /** Properties with an underscore are the ones used inside. */
-const rules = (/** @type {Colours} */ colours) => NAMES.map((name) => `--_${name}: var(--${name}, ${colours[name]});`).join(" ");
+const rules = (/** @type {Colours} */ colours) =>
+  NAMES.map((name) => `--_${name}: var(--${name}, ${colours[name]});`).join(" ");
 
 const CSS = `
 :host { ${rules(LIGHT)} display: block; position: relative; color: var(--_text); font: 13px/1.45 Inter, system-ui, "Helvetica Neue", Arial, sans-serif; }
@@ -84,5 +119,7 @@ export function scheme(element) {
 /** Colours that hold for this element. @param {Element} element @returns {Colours} */
 export function colours(element) {
   const style = getComputedStyle(element);
-  return /** @type {Colours} */ (Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--_${name}`).trim() || LIGHT[name]])));
+  return /** @type {Colours} */ (
+    Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--_${name}`).trim() || LIGHT[name]]))
+  );
 }

@@ -14,7 +14,10 @@ export const decibel = (v) => 20 * Math.log10(Math.max(v, 1e-30));
 /** First and last index of a curve that a view needs, with one beyond each end. @param {Curve} curve @param {[number, number]} view */
 export function part(curve, view) {
   const last = curve.values.length - 1;
-  return [Math.max(0, Math.floor((view[0] - curve.x0) / curve.dx)), Math.min(last, Math.ceil((view[1] - curve.x0) / curve.dx))];
+  return [
+    Math.max(0, Math.floor((view[0] - curve.x0) / curve.dx)),
+    Math.min(last, Math.ceil((view[1] - curve.x0) / curve.dx)),
+  ];
 }
 
 /**
@@ -22,29 +25,45 @@ export function part(curve, view) {
  * @param {Pen} pen @param {Curve} curve @param {Space} space @param {boolean} peaks
  */
 export function tracePath(pen, curve, space, peaks) {
-  const { values, x0, dx } = curve, { X, Y, view, frame } = space, [first, last] = part(curve, view);
+  const { values, x0, dx } = curve,
+    { X, Y, view, frame } = space,
+    [first, last] = part(curve, view);
   if (last <= first) return;
-  const columns = 2 * frame.width, per = (last - first + 1) / columns;
+  const columns = 2 * frame.width,
+    per = (last - first + 1) / columns;
   pen.beginPath();
   if (per <= (peaks ? 1.5 : 3)) {
     for (let i = first; i <= last; i++) {
-      const x = X(x0 + i * dx), y = Y(values[i]);
-      if (i === first) pen.moveTo(x, y); else pen.lineTo(x, y);
+      const x = X(x0 + i * dx),
+        y = Y(values[i]);
+      if (i === first) pen.moveTo(x, y);
+      else pen.lineTo(x, y);
     }
     return;
   }
   const group = Math.ceil(per);
   // Groups start at fixed samples, so that a curve that is only moved keeps its shape.
-  for (let start = first - first % group; start <= last; start += group) {
-    let low = Infinity, high = -Infinity, lowFirst = true;
+  for (let start = first - (first % group); start <= last; start += group) {
+    let low = Infinity,
+      high = -Infinity,
+      lowFirst = true;
     for (let i = Math.max(start, 0), end = Math.min(start + group, values.length); i < end; i++) {
       const v = values[i];
-      if (v < low) { low = v; lowFirst = false; }
-      if (v > high) { high = v; lowFirst = true; }
+      if (v < low) {
+        low = v;
+        lowFirst = false;
+      }
+      if (v > high) {
+        high = v;
+        lowFirst = true;
+      }
     }
     if (!(high >= low)) continue;
     const x = X(x0 + (start + (group - 1) / 2) * dx);
-    if (peaks) { pen.lineTo(x, Y(high)); continue; }
+    if (peaks) {
+      pen.lineTo(x, Y(high));
+      continue;
+    }
     pen.lineTo(x, Y(lowFirst ? low : high));
     pen.lineTo(x, Y(lowFirst ? high : low));
   }
@@ -66,11 +85,23 @@ export function trace(pen, curve, space, peaks, colour, width, alpha = 1) {
 /** Colour of a family of frequencies. @param {string} name @param {Colours} colours */
 export function familyColour(name, colours) {
   const key = name.toLowerCase();
-  return key.startsWith("bpfo") ? colours.bpfo
-    : key.startsWith("bpfi") ? colours.bpfi : key.endsWith("bsf") ? colours.bsf : key.startsWith("ftf") ? colours.ftf : colours.text;
+  return key.startsWith("bpfo")
+    ? colours.bpfo
+    : key.startsWith("bpfi")
+      ? colours.bpfi
+      : key.endsWith("bsf")
+        ? colours.bsf
+        : key.startsWith("ftf")
+          ? colours.ftf
+          : colours.text;
 }
 
-const DASHES = [[5, 3], [2, 2], [8, 2, 2, 2], [1, 3]];
+const DASHES = [
+  [5, 3],
+  [2, 2],
+  [8, 2, 2, 2],
+  [1, 3],
+];
 const LANE = 13;
 
 /** Which harmonics of a line are marked. @param {Line} line */
@@ -81,7 +112,8 @@ export const labelRoom = (lines) => LANE * Math.min(4, lines.filter((line) => li
 
 /** The band that was demodulated. @param {Pen} pen @param {[number, number]} band @param {Space} space @param {Colours} colours */
 export function paintBand(pen, band, space, colours) {
-  const [from, to] = band.map(space.X), { top, height } = space.frame;
+  const [from, to] = band.map(space.X),
+    { top, height } = space.frame;
   if (!(to > from)) return;
   pen.globalAlpha = 0.1;
   pen.fillStyle = colours.blue;
@@ -92,7 +124,11 @@ export function paintBand(pen, band, space, colours) {
   pen.fillStyle = colours.faint;
   pen.font = font(11);
   const word = to - from > 150 ? "band of the envelope" : "band";
-  if (to - from > breadth(word, 11)) { pen.textAlign = "center"; pen.fillText(word, (from + to) / 2, top + 12); pen.textAlign = "start"; }
+  if (to - from > breadth(word, 11)) {
+    pen.textAlign = "center";
+    pen.fillText(word, (from + to) / 2, top + 12);
+    pen.textAlign = "start";
+  }
 }
 
 /**
@@ -104,31 +140,41 @@ export function paintBand(pen, band, space, colours) {
  * @param {Colours} colours
  */
 export function paintLines(pen, lines, space, base, colours) {
-  const { frame, X } = space, right = frame.left + frame.width;
-  lines.filter((line) => line.found).slice(0, 4).forEach((line, lane) => {
-    const colour = familyColour(line.name, colours), y = frame.top + LANE * lane + 11;
-    let free = frame.left, named = false;
-    pen.lineWidth = 1.1;
-    for (const k of orders(line)) {
-      const x = X(k * line.hz);
-      if (x < frame.left || x > right) continue;
-      pen.strokeStyle = colour;
-      pen.globalAlpha = 0.75;
-      pen.setLineDash(DASHES[lane]);
-      path(pen, [[x, y - 9], [x, base]]);
-      pen.stroke();
-      pen.setLineDash([]);
-      pen.globalAlpha = 1;
-      // The first label in view names the family.
-      const label = k === 1 ? line.name : named ? `×${k}` : `${line.name} ×${k}`, wide = breadth(label, 11, named ? 500 : 700);
-      if (x + 3 < free || x + 3 + wide > right) continue;
-      pen.fillStyle = colour;
-      pen.font = font(11, named ? 500 : 700);
-      pen.fillText(label, x + 3, y);
-      free = x + 6 + wide;
-      named = true;
-    }
-  });
+  const { frame, X } = space,
+    right = frame.left + frame.width;
+  lines
+    .filter((line) => line.found)
+    .slice(0, 4)
+    .forEach((line, lane) => {
+      const colour = familyColour(line.name, colours),
+        y = frame.top + LANE * lane + 11;
+      let free = frame.left,
+        named = false;
+      pen.lineWidth = 1.1;
+      for (const k of orders(line)) {
+        const x = X(k * line.hz);
+        if (x < frame.left || x > right) continue;
+        pen.strokeStyle = colour;
+        pen.globalAlpha = 0.75;
+        pen.setLineDash(DASHES[lane]);
+        path(pen, [
+          [x, y - 9],
+          [x, base],
+        ]);
+        pen.stroke();
+        pen.setLineDash([]);
+        pen.globalAlpha = 1;
+        // The first label in view names the family.
+        const label = k === 1 ? line.name : named ? `×${k}` : `${line.name} ×${k}`,
+          wide = breadth(label, 11, named ? 500 : 700);
+        if (x + 3 < free || x + 3 + wide > right) continue;
+        pen.fillStyle = colour;
+        pen.font = font(11, named ? 500 : 700);
+        pen.fillText(label, x + 3, y);
+        free = x + 6 + wide;
+        named = true;
+      }
+    });
   paintNominal(pen, lines, space, base, colours);
 }
 
@@ -147,9 +193,12 @@ const TOGETHER = 12;
  * @param {Colours} colours
  */
 function paintNominal(pen, lines, space, base, colours) {
-  const { frame, X } = space, right = frame.left + frame.width;
-  const marks = lines.map((line) => ({ line, x: X(line.nominal_hz), colour: familyColour(line.name, colours) }))
-    .filter(({ x }) => x >= frame.left && x <= right).sort((a, b) => a.x - b.x);
+  const { frame, X } = space,
+    right = frame.left + frame.width;
+  const marks = lines
+    .map((line) => ({ line, x: X(line.nominal_hz), colour: familyColour(line.name, colours) }))
+    .filter(({ x }) => x >= frame.left && x <= right)
+    .sort((a, b) => a.x - b.x);
   /** @type {(typeof marks)[]} */
   const groups = [];
   for (const mark of marks) {
@@ -160,10 +209,13 @@ function paintNominal(pen, lines, space, base, colours) {
   let free = frame.left;
   groups.forEach((group, k) => {
     for (const { x, colour } of group) triangle(pen, x, base, colour);
-    const alone = group.length === 1 && group[0].line.found, [first, last] = [group[0].x, group[group.length - 1].x];
-    const words = alone ? [{ word: `nominal ${group[0].line.name}`, colour: group[0].colour }]
+    const alone = group.length === 1 && group[0].line.found,
+      [first, last] = [group[0].x, group[group.length - 1].x];
+    const words = alone
+      ? [{ word: `nominal ${group[0].line.name}`, colour: group[0].colour }]
       : group.map(({ line, colour }, i) => ({ word: `${i ? " · " : ""}${line.name}`, colour }));
-    const wide = words.reduce((sum, { word }) => sum + breadth(word, 10), 0), next = k + 1 < groups.length ? groups[k + 1][0].x - 6 : right;
+    const wide = words.reduce((sum, { word }) => sum + breadth(word, 10), 0),
+      next = k + 1 < groups.length ? groups[k + 1][0].x - 6 : right;
     let at = last + 7 + wide <= next ? last + 7 : first - 7 - wide >= free ? first - 7 - wide : null;
     free = last + 6;
     if (at === null || (alone && Math.abs(X(group[0].line.hz) - first) <= 10)) return;
@@ -179,7 +231,15 @@ function paintNominal(pen, lines, space, base, colours) {
 
 /** @param {Pen} pen @param {number} x @param {number} base @param {string} colour */
 function triangle(pen, x, base, colour) {
-  path(pen, [[x, base + 1.5], [x - 4, base + 8.5], [x + 4, base + 8.5]], true);
+  path(
+    pen,
+    [
+      [x, base + 1.5],
+      [x - 4, base + 8.5],
+      [x + 4, base + 8.5],
+    ],
+    true,
+  );
   pen.strokeStyle = colour;
   pen.lineWidth = 1.2;
   pen.setLineDash([]);

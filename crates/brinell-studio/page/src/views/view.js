@@ -21,9 +21,12 @@ export class View extends HTMLElement {
   connectedCallback() {
     this.ends = new AbortController();
     const signal = this.ends.signal;
-    for (const query of ["(prefers-color-scheme: dark)",
-      `(resolution: ${devicePixelRatio}dppx)`]) matchMedia(query).addEventListener("change", () => this.recolour(), { signal });
-    this.pages.observe(document.documentElement, { attributes: true, attributeFilter: ["class", "style", "data-theme", "data-scheme"] });
+    for (const query of ["(prefers-color-scheme: dark)", `(resolution: ${devicePixelRatio}dppx)`])
+      matchMedia(query).addEventListener("change", () => this.recolour(), { signal });
+    this.pages.observe(document.documentElement, {
+      attributes: true,
+      attributeFilter: ["class", "style", "data-theme", "data-scheme"],
+    });
     this.recolour();
   }
   disconnectedCallback() {
@@ -41,18 +44,26 @@ export class View extends HTMLElement {
     this.requestDraw();
   }
   /** @returns {Colours} */
-  get colours() { return (this.paints ??= colours(this)); }
+  get colours() {
+    return (this.paints ??= colours(this));
+  }
   /** Draws once before the next frame is shown, however often it is asked. */
   requestDraw() {
     if (this.asked || !this.isConnected) return;
-    this.asked = requestAnimationFrame(() => { this.asked = 0; this.draw(); });
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      this.draw();
+    });
   }
   draw() {}
   /** Pictures that are saved are light: they go into papers. @returns {{ width: number, height: number, title: string, paint: (pen: Pen, colours: Colours) => void }} */
-  picture() { throw new Error("no picture"); }
+  picture() {
+    throw new Error("no picture");
+  }
   /** The view as SVG. */
   async toSVG() {
-    const { width, height, title, paint } = this.picture(), pen = new SvgPen(width, height, title, LIGHT.ground);
+    const { width, height, title, paint } = this.picture(),
+      pen = new SvgPen(width, height, title, LIGHT.ground);
     paint(pen, LIGHT);
     return pen.text();
   }
@@ -65,7 +76,10 @@ export class View extends HTMLElement {
 
 /** Fits a canvas to its box; gives a pen in CSS pixels and the size, or null where there is no room. @param {HTMLCanvasElement} canvas @param {HTMLElement} box */
 export function fit(canvas, box) {
-  const width = box.clientWidth, height = box.clientHeight, fine = devicePixelRatio || 1, pen = canvas.getContext("2d");
+  const width = box.clientWidth,
+    height = box.clientHeight,
+    fine = devicePixelRatio || 1,
+    pen = canvas.getContext("2d");
   if (!pen || width < 20 || height < 20) return null;
   const [w, h] = [Math.round(width * fine), Math.round(height * fine)];
   if (canvas.width !== w || canvas.height !== h) {
@@ -81,9 +95,17 @@ export function fit(canvas, box) {
 
 /** Calls at most once in so many ms, the last time too. @param {number} ms @param {() => void} act */
 export function seldom(ms, act) {
-  let timer = 0, last = -Infinity;
+  let timer = 0,
+    last = -Infinity;
   return () => {
     if (timer) return;
-    timer = window.setTimeout(() => { timer = 0; last = performance.now(); act(); }, Math.max(0, last + ms - performance.now()));
+    timer = window.setTimeout(
+      () => {
+        timer = 0;
+        last = performance.now();
+        act();
+      },
+      Math.max(0, last + ms - performance.now()),
+    );
   };
 }
