@@ -43,10 +43,10 @@ pub(crate) struct RunArgs {
     /// 1: keys count list elements from 0); a bare word is a string
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Runs at a time, of several scenarios [default: one a core]
+    /// Number of scenarios that run at the same time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
-    /// Folder for the results [default: out/NAME, NAME being the scenario's; of several scenarios out, each in
+    /// Folder for the results [default: out/NAME, NAME being the scenario's; for several scenarios out, each in
     /// out/STEM]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
@@ -73,13 +73,13 @@ pub(crate) struct RunArgs {
     /// by it: some 30 runs more
     #[arg(long)]
     pub(crate) spread: bool,
-    /// Open report.html in the browser when the run is over; of one scenario
+    /// Open report.html in the browser when the run is over (one scenario only)
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) open: bool,
     /// Replace the results of another scenario or command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
-    /// Print the numbers of summary.json as JSON, and no words; of one scenario
+    /// Print the numbers of summary.json as JSON instead of text (one scenario only)
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
@@ -296,7 +296,7 @@ pub(crate) struct PreviewArgs {
     /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]
     #[arg(long, value_name = "MM")]
     pub(crate) ring_thickness_mm: Option<f64>,
-    /// Print preview.json, and no words
+    /// Print preview.json instead of text
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -65,7 +65,7 @@ pub(crate) struct CalibrateArgs {
     /// Random seed of the points that are tried
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Runs at a time [default: one a core]
+    /// Runs at a time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Folder for the results [default: out/calibrate-STEM, STEM being the scenario's file name without ending]
@@ -77,7 +77,7 @@ pub(crate) struct CalibrateArgs {
     /// Print the plan and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
-    /// Print the numbers of calibrate.json as JSON, and no words; with --dry-run those of the plan
+    /// Print the numbers of calibrate.json as JSON instead of text; with --dry-run those of the plan
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors

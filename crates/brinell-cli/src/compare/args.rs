@@ -40,7 +40,7 @@ pub(crate) struct CompareArgs {
     /// Folder for the results [default: out/compare-STEM, STEM being the baseline's file name without ending]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
-    /// Runs at a time [default: one a core]
+    /// Runs at a time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Also write each plot into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves
@@ -51,7 +51,7 @@ pub(crate) struct CompareArgs {
     /// Replace the results of other scenarios or another command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
-    /// Print the numbers of compare.json as JSON, and no words
+    /// Print the numbers of compare.json as JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors

@@ -62,13 +62,13 @@ pub(crate) struct DatasetArgs {
     /// Only this share of the files, I from 1 to N
     #[arg(long, value_name = "I/N", default_value = "1/1", hide_default_value = true)]
     pub(crate) shard: Shard,
-    /// Runs at a time [default: one a core]
+    /// Runs at a time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Print what the plan means and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
-    /// Print what was made as JSON, and no words; with --dry-run the plan and its cost
+    /// Print what was made as JSON instead of text; with --dry-run the plan and its cost
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
@@ -95,7 +95,7 @@ pub(crate) struct MergeArgs {
     /// Where they are joined: a new folder, or one of them
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
-    /// Print JSON, and no words
+    /// Print JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
@@ -119,7 +119,7 @@ pub(crate) struct SheetArgs {
 pub(crate) struct VerifyArgs {
     /// The data set's folder
     pub(crate) folder: PathBuf,
-    /// Print JSON, and no words
+    /// Print JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors

@@ -26,7 +26,7 @@ const SCHEMA: &str = "brinell-schema.json";
     Beside FILE it writes brinell-schema.json, with which editors that know #:schema (Even Better TOML, Taplo) complete and explain keys, and \
     what the template names: a photo, a scan, or the scenario of a data set's plan.")]
 pub(crate) struct InitArgs {
-    /// File to write; standard output where left out
+    /// File to write [default: standard output]
     file: Option<PathBuf>,
     /// What to start from
     #[arg(long, value_name = "TEMPLATE", default_value = "outer-spall")]

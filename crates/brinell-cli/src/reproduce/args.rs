@@ -52,7 +52,7 @@ pub(crate) struct ReproduceArgs {
     /// Folder for the results
     #[arg(short, long, value_name = "FOLDER", default_value = "out/reproduce")]
     pub(crate) output: PathBuf,
-    /// Runs at a time [default: one a core]
+    /// Runs at a time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Also write each picture into FOLDER/plots, as files of these formats
@@ -64,7 +64,7 @@ pub(crate) struct ReproduceArgs {
     /// meant to be included from the folder above
     #[arg(long, value_name = "FOLDER")]
     pub(crate) book: Option<PathBuf>,
-    /// Print the numbers of claims.json as JSON, and no words
+    /// Print the numbers of claims.json as JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors

@@ -42,7 +42,7 @@ pub(crate) struct SweepArgs {
     /// Folder for the results [default: out/sweep-STEM, STEM being the scenario's file name without ending]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
-    /// Runs at a time [default: one a core]
+    /// Runs at a time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Indicators to plot, such as sensor_ax.rms or envelope.bpfo [default: RMS and peak to peak of the sensor
@@ -63,7 +63,7 @@ pub(crate) struct SweepArgs {
     /// Print the plan and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
-    /// Print sweep.json and the table's rows as JSON, and no words
+    /// Print sweep.json and the table's rows as JSON instead of text
     #[arg(long, conflicts_with = "dry_run")]
     pub(crate) json: bool,
     /// Print nothing but errors
