@@ -7,7 +7,8 @@ use super::problem::{Place, Problem, Severity};
 use super::provenance::{Origin, Provenance, by_key};
 use super::reader::Reader;
 use super::spec::unit_of;
-use super::writer::{Style, Unwritten, Writer};
+use super::tree::{LeftOut, Tree};
+use super::writer::{Style, Writer};
 use super::{recorded, sections, source, toml_text, unset};
 use crate::scenario::{Scenario, Shape};
 
@@ -28,9 +29,13 @@ pub struct Loaded {
 /// # Errors
 /// Every problem of the text at once, warnings after errors.
 pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Problem>> {
-    let root = source::parse(text, overrides)?;
+    read_tree(text, &source::parse(text, overrides)?)
+}
+
+/// The tree of a text, or of a scenario, which has none.
+fn read_tree(text: &str, root: &source::Table) -> Result<Loaded, Vec<Problem>> {
     let mut scenario = unset::scenario();
-    let mut reader = Reader::new(text, &root);
+    let mut reader = Reader::new(text, root);
     reader.read_recorded();
     sections::scenario(&mut reader, &mut scenario);
     reader.finish();
@@ -137,37 +142,31 @@ impl Scenario {
     /// The scenario as TOML with every key given. Where [`Scenario::problems`] finds no error it reads back to the same
     /// scenario, bit for bit, but for fields of `tilting` that do not act: those have their defaults then.
     pub fn to_toml(&self) -> String {
-        written(self).0
+        write(self, Style { provenance: HashMap::new(), template: false })
     }
 
     /// Everything wrong with a scenario built or changed in code, errors first; keys are those of the file. A field whose key
     /// has no meaning in the present case holds what a file's reader gives it there.
     pub fn problems(&self) -> Vec<Problem> {
-        let (text, unwritten) = written(self);
-        let mut problems = match read(&text, &[]) {
-            Ok(loaded) => [lost(unwritten, written(&loaded.scenario).1), loaded.warnings].concat(),
+        let tree = tree_of(self);
+        match read_tree("", &tree.table) {
+            Ok(loaded) => [lost(tree.left_out, tree_of(&loaded.scenario).left_out), loaded.warnings].concat(),
             Err(problems) => problems,
-        };
-        for problem in &mut problems {
-            // Lines of a text that nobody has seen.
-            (problem.line, problem.column, problem.span) = (None, None, None);
-            problem.also.iter_mut().for_each(|(_, place)| *place = None);
         }
-        problems
     }
 }
 
 /// Every key that a scenario has, and the fields that have none.
-fn written(scenario: &Scenario) -> (String, Vec<Unwritten>) {
-    let mut writer = walked(scenario, Style { provenance: HashMap::new(), template: false });
-    let unwritten = std::mem::take(&mut writer.unwritten);
-    (writer.finish(), unwritten)
+fn tree_of(scenario: &Scenario) -> Tree {
+    let mut tree = Tree::default();
+    sections::scenario(&mut tree, &mut scenario.clone());
+    tree
 }
 
-/// Values that a text has no key for, and that do not come back by themselves.
-fn lost(unwritten: Vec<Unwritten>, read_back: Vec<Unwritten>) -> Vec<Problem> {
-    let differing = unwritten.into_iter().zip(read_back).filter(|(own, back)| own.value != back.value);
-    let problem = |(Unwritten { key, case, value }, back): (Unwritten, Unwritten)| {
+/// Values that a file has no key for, and that do not come back by themselves.
+fn lost(left_out: Vec<LeftOut>, read_back: Vec<LeftOut>) -> Vec<Problem> {
+    let differing = left_out.into_iter().zip(read_back).filter(|(own, back)| own.value != back.value);
+    let problem = |(LeftOut { key, case, value }, back): (LeftOut, LeftOut)| {
         let unit = unit_of(key.rsplit('.').next().unwrap_or_default());
         let allowed = if back.value == "nan" { "none".into() } else { back.value };
         Problem::error(key, format!("has a meaning only where {case}")).value(value).allowed(allowed).unit(unit)
@@ -176,11 +175,7 @@ fn lost(unwritten: Vec<Unwritten>, read_back: Vec<Unwritten>) -> Vec<Problem> {
 }
 
 pub(crate) fn write(scenario: &Scenario, style: Style<'_>) -> String {
-    walked(scenario, style).finish()
-}
-
-fn walked<'a>(scenario: &Scenario, style: Style<'a>) -> Writer<'a> {
     let mut writer = Writer::new(style);
     sections::scenario(&mut writer, &mut scenario.clone());
-    writer
+    writer.finish()
 }

@@ -35,6 +35,7 @@ mod spec;
 mod speed_value;
 mod table_value;
 mod toml_text;
+mod tree;
 mod unset;
 mod value_type;
 mod waviness_value;

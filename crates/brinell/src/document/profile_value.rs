@@ -4,7 +4,6 @@ use serde_json::{Value as Json, json};
 
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
-use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::RollerProfile;
 
@@ -59,16 +58,13 @@ impl ValueType for RollerProfile {
         }
     }
 
-    fn write(&self) -> String {
+    fn node(&self) -> Node {
+        let word = |word: &str| Node::unplaced(Value::Text(word.into()));
         match self {
-            Self::Straight => quote("straight"),
-            Self::Logarithmic => quote("logarithmic"),
-            Self::Crowned { crowned_radius_mm } => {
-                format!("{{ {} = {} }}", RADIUS.name, crowned_radius_mm.write())
-            }
-            Self::Table { z_mm, drop_um } => {
-                format!("{{ {} = {}, {} = {} }}", Z.name, z_mm.write(), DROP.name, drop_um.write())
-            }
+            Self::Straight => word("straight"),
+            Self::Logarithmic => word("logarithmic"),
+            Self::Crowned { crowned_radius_mm } => Node::record([(RADIUS.name, crowned_radius_mm.node())]),
+            Self::Table { z_mm, drop_um } => Node::record([(Z.name, z_mm.node()), (DROP.name, drop_um.node())]),
         }
     }
 

@@ -50,8 +50,8 @@ impl ValueType for ScaleBar {
         Ok(Self { px: value(&PX)?, mm: value(&MM)? })
     }
 
-    fn write(&self) -> String {
-        format!("{{ px = {}, mm = {} }}", self.px.write(), self.mm.write())
+    fn node(&self) -> Node {
+        Node::record([(PX.name, self.px.node()), (MM.name, self.mm.node())])
     }
 
     fn schema(_: &Spec) -> Json {

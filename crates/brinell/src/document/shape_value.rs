@@ -24,8 +24,8 @@ impl ValueType for u64 {
         number.ok_or_else(|| Misfit::new("out of range", "0 to 2^64 - 1"))
     }
 
-    fn write(&self) -> String {
-        self.to_string()
+    fn node(&self) -> Node {
+        Node::whole(*self)
     }
 
     fn schema(_: &Spec) -> Json {

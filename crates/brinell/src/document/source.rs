@@ -65,8 +65,19 @@ pub struct Entry {
 }
 
 impl Node {
-    fn unplaced(value: Value) -> Node {
+    pub(crate) fn unplaced(value: Value) -> Node {
         Node { value, span: None }
+    }
+
+    /// A whole number.
+    pub(crate) fn whole(number: u64) -> Node {
+        let small = i64::try_from(number).map(Value::Integer);
+        Node::unplaced(small.unwrap_or_else(|_| Value::HugeInteger(number.to_string())))
+    }
+
+    /// A table of these keys.
+    pub(crate) fn record<const N: usize>(keys: [(&str, Node); N]) -> Node {
+        Node::table(keys.into_iter().map(|(key, node)| (key.to_owned(), Entry { key_span: None, node })).collect())
     }
 
     /// A value of the catalogue.

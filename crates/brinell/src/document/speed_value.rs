@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::quantity;
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
-use super::value_type::{Misfit, ValueType, write_each, wrong_type};
+use super::value_type::{Misfit, ValueType, each, wrong_type};
 use crate::scenario::Speed;
 
 /// The first number of a point.
@@ -42,10 +42,10 @@ impl ValueType for Speed {
         }
     }
 
-    fn write(&self) -> String {
+    fn node(&self) -> Node {
         match self {
-            Speed::Constant(speed) => speed.write(),
-            Speed::Profile(points) => write_each(points),
+            Speed::Constant(speed) => speed.node(),
+            Speed::Profile(points) => each(points),
         }
     }
 

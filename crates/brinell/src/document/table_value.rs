@@ -4,7 +4,6 @@ use serde_json::{Value as Json, json};
 
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
-use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::{DefectTable, TableData, TableValues};
 
@@ -47,18 +46,14 @@ impl ValueType for DefectTable {
         Ok(Self::Read(data))
     }
 
-    fn write(&self) -> String {
+    fn node(&self) -> Node {
         match self {
-            Self::File(file) => quote(file),
-            Self::Read(TableData { s_mm, delta_um, values }) => format!(
-                "{{ {} = {}, {} = {}, {} = {} }}",
-                S.name,
-                s_mm.write(),
-                DELTA.name,
-                delta_um.write(),
-                values.name(),
-                values.list().to_vec().write()
-            ),
+            Self::File(file) => file.node(),
+            Self::Read(TableData { s_mm, delta_um, values }) => Node::record([
+                (S.name, s_mm.node()),
+                (DELTA.name, delta_um.node()),
+                (values.name(), values.list().to_vec().node()),
+            ]),
         }
     }
 

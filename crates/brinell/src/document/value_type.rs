@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 use super::quantity;
 use super::source::{Node, Value};
 use super::spec::Spec;
-use super::toml_text::{float, quote};
+use super::toml_text::quote;
 
 /// A value that does not fit its key.
 #[derive(Debug)]
@@ -55,8 +55,12 @@ pub trait ValueType: Sized + Clone {
     /// # Errors
     /// Where it does not fit.
     fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit>;
+    /// The value as a node, without a place.
+    fn node(&self) -> Node;
     /// The value as TOML.
-    fn write(&self) -> String;
+    fn write(&self) -> String {
+        self.node().text()
+    }
     /// The values accepted, as a JSON Schema.
     fn schema(spec: &Spec) -> Json;
     /// Values accepted, in the words of the template.
@@ -165,8 +169,8 @@ impl ValueType for f64 {
         if spec.range.contains(x) { Ok(x) } else { Err(out_of_range(x, spec)) }
     }
 
-    fn write(&self) -> String {
-        float(*self)
+    fn node(&self) -> Node {
+        Node::unplaced(Value::Float(*self))
     }
 
     fn schema(spec: &Spec) -> Json {
@@ -212,8 +216,8 @@ impl ValueType for usize {
         }
     }
 
-    fn write(&self) -> String {
-        self.to_string()
+    fn node(&self) -> Node {
+        Node::whole(*self as u64)
     }
 
     fn schema(spec: &Spec) -> Json {
@@ -245,8 +249,8 @@ impl ValueType for bool {
         }
     }
 
-    fn write(&self) -> String {
-        self.to_string()
+    fn node(&self) -> Node {
+        Node::unplaced(Value::Boolean(*self))
     }
 
     fn schema(_: &Spec) -> Json {
@@ -276,8 +280,8 @@ impl ValueType for String {
         }
     }
 
-    fn write(&self) -> String {
-        quote(self)
+    fn node(&self) -> Node {
+        Node::unplaced(Value::Text(self.clone()))
     }
 
     fn schema(_: &Spec) -> Json {
@@ -296,9 +300,8 @@ pub(super) fn read_each<T: ValueType>(items: &[Node], spec: &Spec) -> Result<Vec
     items.iter().map(|item| T::read(item, spec).map_err(|misfit| misfit.in_element(item))).collect()
 }
 
-pub(super) fn write_each<T: ValueType>(items: &[T]) -> String {
-    let texts: Vec<String> = items.iter().map(ValueType::write).collect();
-    format!("[{}]", texts.join(", "))
+pub(super) fn each<T: ValueType>(items: &[T]) -> Node {
+    Node::unplaced(Value::Array(items.iter().map(ValueType::node).collect()))
 }
 
 /// What lists of any length hold.
@@ -335,8 +338,8 @@ impl<T: Listed> ValueType for Vec<T> {
         }
     }
 
-    fn write(&self) -> String {
-        write_each(self)
+    fn node(&self) -> Node {
+        each(self)
     }
 
     fn schema(spec: &Spec) -> Json {
@@ -374,8 +377,8 @@ impl<const N: usize> ValueType for [f64; N] {
         })
     }
 
-    fn write(&self) -> String {
-        write_each(self)
+    fn node(&self) -> Node {
+        each(self)
     }
 
     fn schema(spec: &Spec) -> Json {
@@ -423,8 +426,8 @@ impl<T: Choice> ValueType for T {
         })
     }
 
-    fn write(&self) -> String {
-        quote(self.word())
+    fn node(&self) -> Node {
+        Node::unplaced(Value::Text(self.word().into()))
     }
 
     fn schema(_: &Spec) -> Json {

@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
-use super::value_type::{Misfit, ValueType, read_under, wrong_type};
+use super::value_type::{Misfit, ValueType, each, read_under, wrong_type};
 use crate::scenario::Waviness;
 
 const AMPLITUDE: Spec = key("amplitude_um", "A_1").from(0.0).to(1000.0);
@@ -65,15 +65,13 @@ impl ValueType for Waviness {
         Ok(Self { amplitude_um, exponent, waves })
     }
 
-    fn write(&self) -> String {
-        let [first, last] = self.waves;
-        format!(
-            "{{ {} = {}, {} = {}, {WAVES} = [{first}, {last}] }}",
-            AMPLITUDE.name,
-            self.amplitude_um.write(),
-            EXPONENT.name,
-            self.exponent.write()
-        )
+    fn node(&self) -> Node {
+        let waves = each(&self.waves);
+        Node::record([
+            (AMPLITUDE.name, self.amplitude_um.node()),
+            (EXPONENT.name, self.exponent.node()),
+            (WAVES, waves),
+        ])
     }
 
     fn schema(_: &Spec) -> Json {

@@ -15,14 +15,6 @@ pub(crate) struct Style<'a> {
     pub(crate) template: bool,
 }
 
-/// A key that is not written, as it has no meaning here, and what its field holds.
-pub(crate) struct Unwritten {
-    pub(crate) key: String,
-    /// Where it has one.
-    pub(crate) case: &'static str,
-    pub(crate) value: String,
-}
-
 struct Line {
     code: String,
     comment: String,
@@ -37,30 +29,16 @@ pub(crate) struct Writer<'a> {
     inline: Option<Vec<String>>,
     /// Explanations of an inline table's keys, and reasons of its assumed values.
     comments: Vec<String>,
-    pub(crate) unwritten: Vec<Unwritten>,
 }
 
 impl<'a> Writer<'a> {
     pub(crate) fn new(style: Style<'a>) -> Writer<'a> {
-        Writer {
-            style,
-            out: String::new(),
-            lines: Vec::new(),
-            path: Vec::new(),
-            inline: None,
-            comments: Vec::new(),
-            unwritten: Vec::new(),
-        }
+        Writer { style, out: String::new(), lines: Vec::new(), path: Vec::new(), inline: None, comments: Vec::new() }
     }
 
     pub(crate) fn finish(mut self) -> String {
         self.flush();
         self.out
-    }
-
-    /// A key without a meaning in the present case: `value` is lost.
-    fn leave_out<T: ValueType>(&mut self, spec: &Spec, case: &'static str, value: &T) {
-        self.unwritten.push(Unwritten { key: self.path_of(spec.name), case, value: value.write() });
     }
 
     fn path_of(&self, name: &str) -> String {
@@ -186,7 +164,6 @@ impl Keys for Writer<'_> {
         if wanted {
             return self.add(&spec, T::range, &value.write(), true);
         }
-        self.leave_out(&spec, case, value);
         if self.style.template && (self.inline.is_some() || !value.fits(&spec)) {
             self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
         } else if self.style.template {
@@ -197,20 +174,7 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn key_where<T: ValueType>(&mut self, spec: Spec, case: Case, fallback: Fallback<T>, value: &mut T) {
-        if !case.0 {
-            self.leave_out(&spec, case.1, value);
-        }
-        self.key_acting_where(spec, case, fallback, value);
-    }
-
-    fn key_acting_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        (wanted, case): Case,
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
+    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, fallback: Fallback<T>, value: &mut T) {
         if wanted {
             self.key(spec, fallback, value);
         } else if self.style.template {
