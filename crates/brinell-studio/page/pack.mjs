@@ -26,9 +26,7 @@ const { values: options } = parseArgs({
 const wasm = resolve(options.wasm),
     out = resolve(options.out);
 if (!options["without-engine"] && !existsSync(wasm)) {
-    console.error(
-        `pack.mjs: no engine ${wasm}: build it with .ci/studio, name it with --wasm, or pack the page --without-engine`,
-    );
+    console.error(`pack.mjs: no engine ${wasm}: build it with .ci/studio, name it with --wasm, or pack the page --without-engine`);
     process.exit(1);
 }
 

@@ -27,7 +27,6 @@ export class Lost extends Error {
  * @param {any} answer
  */
 export function accepted(answer) {
-  if (!answer.ok)
-    throw new Refused(answer.problems ?? [{ key: null, line: null, message: "the engine gave no reason" }]);
+  if (!answer.ok) throw new Refused(answer.problems ?? [{ key: null, line: null, message: "the engine gave no reason" }]);
   return answer;
 }

@@ -133,11 +133,7 @@ export class Field {
   /** Puts back what was taken last, in place of what is typed and not taken or not read: whether there was something. */
   restore() {
     const box = this.#input;
-    if (
-      !(box instanceof HTMLInputElement) ||
-      this.spec.kind !== "number" ||
-      !(this.unread || (this.#typing && box.value !== this.#shown))
-    )
+    if (!(box instanceof HTMLInputElement) || this.spec.kind !== "number" || !(this.unread || (this.#typing && box.value !== this.#shown)))
       return false;
     this.#typing = false;
     this.unread = "";
@@ -272,10 +268,7 @@ function spanOf(value, spec) {
   if (spec.log && value > 0) return [value / 10, Math.min(value * 10, spec.max ?? Infinity)];
   const reach = Math.abs(value) || 1,
     low = spec.min ?? (value < 0 ? 4 * value : 0);
-  return [
-    low,
-    Math.min(spec.max !== undefined && spec.max <= 1000 * reach ? spec.max : Infinity, value > 0 ? 4 * value : reach),
-  ];
+  return [low, Math.min(spec.max !== undefined && spec.max <= 1000 * reach ? spec.max : Infinity, value > 0 ? 4 * value : reach)];
 }
 
 export class Controls {

@@ -50,9 +50,7 @@ export class CurveViews {
         ? {
             x0,
             dx: 1 / rate,
-            values: whole
-              ? healthy.x.subarray(0, values.length)
-              : healthy.x.subarray(Math.max(0, healthy.x.length - values.length)),
+            values: whole ? healthy.x.subarray(0, values.length) : healthy.x.subarray(Math.max(0, healthy.x.length - values.length)),
           }
         : null;
     const second = other?.opened ? { x0, dx: 1 / other.opened.rate_hz, values: cut(other) } : null;

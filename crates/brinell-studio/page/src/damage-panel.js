@@ -87,11 +87,8 @@ export class DamagePanel {
   /** @param {HTMLElement} root @param {Owner} owner */
   constructor(root, owner) {
     this.owner = owner;
-    const button = (
-      /** @type {string} */ text,
-      /** @type {() => void} */ onclick,
-      /** @type {Record<string, unknown>} */ more = {},
-    ) => h("button", { type: "button", onclick, ...more }, text);
+    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick, /** @type {Record<string, unknown>} */ more = {}) =>
+      h("button", { type: "button", onclick, ...more }, text);
     const surfaces = /** @type {const} */ ([
       ["outer-raceway", "Outer"],
       ["inner-raceway", "Inner"],
@@ -124,11 +121,7 @@ export class DamagePanel {
     ) => {
       const why = () => {
         const said = numberOf(box.value);
-        return typeof said === "string"
-          ? said
-          : said > 0 && said <= most()
-            ? ""
-            : `expected more than 0 and at most ${short(most())}`;
+        return typeof said === "string" ? said : said > 0 && said <= most() ? "" : `expected more than 0 and at most ${short(most())}`;
       };
       const box = numberInput(
         {
@@ -240,9 +233,7 @@ export class DamagePanel {
     const { rows, elements } = opened.geometry,
       fill = (/** @type {HTMLSelectElement} */ select, /** @type {number} */ n, /** @type {number} */ at) => {
         if (select.options.length !== n)
-          select.replaceChildren(
-            ...Array.from({ length: n }, (_, k) => h("option", { value: String(k + 1) }, String(k + 1))),
-          );
+          select.replaceChildren(...Array.from({ length: n }, (_, k) => h("option", { value: String(k + 1) }, String(k + 1))));
         select.value = String(at);
       };
     this.row = Math.min(this.row, rows);
@@ -272,8 +263,7 @@ export class DamagePanel {
 
   #lay() {
     const here = this.#damage.filter(
-      (one) =>
-        one.on === this.surface && one.row === this.row && (one.on !== "roller" || (one.roller ?? 1) === this.roller),
+      (one) => one.on === this.surface && one.row === this.row && (one.on !== "roller" || (one.roller ?? 1) === this.roller),
     );
     this.raceway.damage = here;
   }
@@ -282,10 +272,7 @@ export class DamagePanel {
   select(defect) {
     this.selected = defect;
     const one = this.#defects[defect - 1];
-    if (
-      one &&
-      (one.on !== this.surface || (one.row ?? 1) !== this.row || (one.on === "roller" && one.roller !== this.roller))
-    )
+    if (one && (one.on !== this.surface || (one.row ?? 1) !== this.row || (one.on === "roller" && one.roller !== this.roller)))
       this.look(one.on, one.row ?? 1, one.roller ?? this.roller);
     this.selected = defect;
     this.update();
@@ -303,8 +290,7 @@ export class DamagePanel {
     this.raceway.defect = defect ?? null;
     this.undo.disabled = !store.canUndo;
     this.redo.disabled = !store.canRedo;
-    for (const button of this.surfaces)
-      button.setAttribute("aria-pressed", String(button.dataset.surface === this.surface));
+    for (const button of this.surfaces) button.setAttribute("aria-pressed", String(button.dataset.surface === this.surface));
     this.rollerLabel.hidden = this.surface !== "roller";
     const key = JSON.stringify([
       this.selected,
@@ -329,8 +315,7 @@ export class DamagePanel {
       changed = (/** @type {any[]} */ a, /** @type {any[]} */ b) =>
         a.filter((d) => !b.some((o) => JSON.stringify(o) === JSON.stringify(d)));
     const all = [...changed(after, before), ...changed(before, after)];
-    if (all.length && !all.some((d) => d.on === this.surface))
-      this.look(all[0].on, all[0].row ?? 1, all[0].roller ?? this.roller);
+    if (all.length && !all.some((d) => d.on === this.surface)) this.look(all[0].on, all[0].row ?? 1, all[0].roller ?? this.roller);
   }
 
   /** @param {any} defect @param {string} key */
@@ -349,9 +334,7 @@ export class DamagePanel {
     );
     if (same) return void this.chosen.querySelector(".chips")?.replaceWith(chips);
     this.fields = defect
-      ? defectSpecs(schema, defect, this.selected - 1).map(
-          (s) => new Field(s, this.owner.changed, { note: false, range: false }),
-        )
+      ? defectSpecs(schema, defect, this.selected - 1).map((s) => new Field(s, this.owner.changed, { note: false, range: false }))
       : [];
     const hint = h("p", { className: "hint" }, HINTS[this.raceway.tool]);
     this.chosen.replaceChildren(
@@ -386,8 +369,7 @@ export class DamagePanel {
     else if (type === "begin") this.#begin();
     else if (type === "end") this.#end();
     else if (type === "cancel") this.#cancel();
-    else if (type === "shape")
-      this.#put({ shape: request.shape }, request.s, request.z, this.#gesture ?? this.#begin());
+    else if (type === "shape") this.#put({ shape: request.shape }, request.s, request.z, this.#gesture ?? this.#begin());
     else if (type === "stroke") this.#scratch(request, this.#gesture ?? this.#begin());
     else this.#alter(request);
   }
@@ -423,8 +405,7 @@ export class DamagePanel {
   #mend() {
     const one = this.#latest,
       why = this.#refusal;
-    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario || one.scenario !== this.owner.store().scenario)
-      return false;
+    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario || one.scenario !== this.owner.store().scenario) return false;
     this.#latest = this.#refusal = null;
     this.owner.store().takeBack();
     notice("taken", `Taken back: ${why?.words}`, { bad: true });
@@ -454,14 +435,9 @@ export class DamagePanel {
     store.change((scenario) => {
       const defect = scenario.defects[at];
       if (request.type === "resize") defect.shape = request.shape;
-      if (request.type === "deeper")
-        defect.depth_um = Number(((defect.depth_um ?? this.#depth) * DEEPER ** request.factor).toPrecision(3));
+      if (request.type === "deeper") defect.depth_um = Number(((defect.depth_um ?? this.#depth) * DEEPER ** request.factor).toPrecision(3));
       if (request.type === "shift")
-        this.#lie(
-          defect,
-          ((defect.center_deg + request.degrees) / 360) * this.#turn,
-          (defect.axial_offset_mm ?? 0) + request.z,
-        );
+        this.#lie(defect, ((defect.center_deg + request.degrees) / 360) * this.#turn, (defect.axial_offset_mm ?? 0) + request.z);
       if (request.type === "move") this.#lie(defect, request.s, request.z);
     }, this.#gesture?.id ?? request.type);
     if (this.#gesture) this.#gesture.scenario = store.scenario;

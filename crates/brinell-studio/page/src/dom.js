@@ -12,8 +12,7 @@ export function h(tag, props = {}, ...children) {
   const node = document.createElement(tag);
   for (const [key, value] of Object.entries(props)) {
     if (value === undefined || value === null) continue;
-    if (key.startsWith("on") && typeof value === "function")
-      node.addEventListener(key.slice(2), /** @type {EventListener} */ (value));
+    if (key.startsWith("on") && typeof value === "function") node.addEventListener(key.slice(2), /** @type {EventListener} */ (value));
     else if (key in node && !key.includes("-")) /** @type {any} */ (node)[key] = value;
     else node.setAttribute(key, String(value));
   }
@@ -39,31 +38,19 @@ export function byId(id) {
 export function short(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  const text =
-    value !== 0 && (size >= 1e6 || size < 1e-3)
-      ? value.toExponential(digits - 1)
-      : String(Number(value.toPrecision(digits)));
+  const text = value !== 0 && (size >= 1e6 || size < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
   return text.replaceAll("-", "−");
 }
 
 /** As many digits as the width of an interval needs two of, three at least. @param {number} low @param {number} high */
 export const digitsOf = (low, high) =>
-  Math.min(
-    12,
-    Math.max(
-      3,
-      2 + Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high)))) - Math.floor(Math.log10(high - low)),
-    ),
-  );
+  Math.min(12, Math.max(3, 2 + Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high)))) - Math.floor(Math.log10(high - low))));
 
 /** The number that a text says, with a point or a comma before its decimals; else, in words, why it says none. @param {string} text @returns {number | string} */
 export function numberOf(text) {
   const plain = text.trim().replaceAll("−", "-");
-  if (/^[-+]?[1-9]\d{0,2},\d{3}$/.test(plain))
-    return `"${plain}" may be ${plain.replace(",", ".")} or ${plain.replace(",", "")}`;
-  return /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i.test(plain)
-    ? Number(plain.replace(",", "."))
-    : `"${plain}" is no number`;
+  if (/^[-+]?[1-9]\d{0,2},\d{3}$/.test(plain)) return `"${plain}" may be ${plain.replace(",", ".")} or ${plain.replace(",", "")}`;
+  return /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain.replace(",", ".")) : `"${plain}" is no number`;
 }
 
 /**
@@ -111,8 +98,7 @@ export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matche
 
 /** Head and body of a table anew. @param {HTMLTableElement} table @param {string[]} columns @param {unknown[][]} rows */
 export function fill(table, columns, rows) {
-  const cell = (/** @type {unknown} */ v) =>
-    typeof v === "number" ? short(v, 4) : v === null || v === undefined ? "" : String(v);
+  const cell = (/** @type {unknown} */ v) => (typeof v === "number" ? short(v, 4) : v === null || v === undefined ? "" : String(v));
   table.replaceChildren(
     h("thead", {}, h("tr", {}, ...columns.map((c) => h("th", { scope: "col" }, c)))),
     h(
@@ -123,9 +109,7 @@ export function fill(table, columns, rows) {
           "tr",
           {},
           ...row.map((v, k) =>
-            k === 0
-              ? h("th", { scope: "row" }, cell(v))
-              : h("td", { className: typeof v === "number" ? "number" : "" }, cell(v)),
+            k === 0 ? h("th", { scope: "row" }, cell(v)) : h("td", { className: typeof v === "number" ? "number" : "" }, cell(v)),
           ),
         ),
       ),

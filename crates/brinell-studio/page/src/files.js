@@ -56,8 +56,7 @@ export async function chosenKind(name, kinds) {
 
 /** @param {File} file */
 export async function bytesOf(file) {
-  if (file.size > LARGEST)
-    throw new Error(`${file.name}: ${short(file.size / (1 << 20))} MiB is more than the page can hold`);
+  if (file.size > LARGEST) throw new Error(`${file.name}: ${short(file.size / (1 << 20))} MiB is more than the page can hold`);
   return new Uint8Array(await file.arrayBuffer());
 }
 
@@ -77,10 +76,7 @@ function preview(shape) {
   svg.setAttribute("class", "preview");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", "The outline that was found");
-  path.setAttribute(
-    "d",
-    polygons.map((/** @type {number[][]} */ p) => `M${p.map(([a, b]) => `${a} ${-b}`).join("L")}Z`).join(""),
-  );
+  path.setAttribute("d", polygons.map((/** @type {number[][]} */ p) => `M${p.map(([a, b]) => `${a} ${-b}`).join("L")}Z`).join(""));
   svg.append(path);
   return svg;
 }
@@ -113,11 +109,7 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
       told.replaceChildren(
         ...[
           preview(answer.shape),
-          h(
-            "p",
-            {},
-            `${short(answer.length_mm, 4)} mm long, ${short(answer.width_mm, 4)} mm wide, ${short(answer.area_mm2, 4)} mm²`,
-          ),
+          h("p", {}, `${short(answer.length_mm, 4)} mm long, ${short(answer.width_mm, 4)} mm wide, ${short(answer.area_mm2, 4)} mm²`),
           ...(answer.notes ?? []).map((/** @type {string} */ n) => h("p", { className: "note" }, n)),
         ].filter((n) => n !== null),
       );
@@ -132,11 +124,8 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
               message: p.message.replace(/^defects\.0\.shape\.\w+\.(\w+)(.*?) \(defect 1\)/, "$1$2"),
             }))
           : [{ key: null, message: String(error) }];
-      const open = (/** @type {{key: string | null}} */ p) =>
-        !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
-      told.replaceChildren(
-        ...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)),
-      );
+      const open = (/** @type {{key: string | null}} */ p) => !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
+      told.replaceChildren(...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)));
       trouble.textContent = problems
         .filter((p) => !open(p))
         .map((p) => p.message)
@@ -161,11 +150,7 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
   look();
   const more = h("details", {}, h("summary", {}, "More"), ...rest.map((f) => f.element));
   for (;;) {
-    const form = await asked(
-      `${name}: damage`,
-      [told, trouble, ...first.map((f) => f.element), more],
-      "Place on the raceway",
-    );
+    const form = await asked(`${name}: damage`, [told, trouble, ...first.map((f) => f.element), more], "Place on the raceway");
     if (!form) {
       turn++;
       return null;
@@ -257,11 +242,9 @@ export function saveMenu(items, note) {
 export async function share(toml, save) {
   const link = await toLink(toml);
   if (link.length > LINK_LIMIT)
-    return notice(
-      "link",
-      `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
-      { actions: [["Save the scenario", save]] },
-    );
+    return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`, {
+      actions: [["Save the scenario", save]],
+    });
   history.replaceState(null, "", link);
   const address = location.href,
     field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });

@@ -6,10 +6,7 @@ const KEYS = [
     "On the raceway",
     [
       ["V P O B R C I", "select, pen, points, depth brush, rectangle, circle, irregular spall"],
-      [
-        "Enter",
-        "places the tool's shape; pen and brush down and up; a corner, twice on one closes; closes corners that were clicked",
-      ],
+      ["Enter", "places the tool's shape; pen and brush down and up; a corner, twice on one closes; closes corners that were clicked"],
       ["Arrows", "move the selected damage 1° or 0.1 mm, Shift ten times as far; without one, the place to draw"],
       ["[ ]", "shallower, deeper"],
       ["Delete", "deletes the damage"],
@@ -45,11 +42,7 @@ export function showKeys() {
     h("h2", { id: "dialog-title" }, "Keys and gestures"),
     ...KEYS.flatMap(([title, rows]) => [
       h("h3", {}, String(title)),
-      h(
-        "dl",
-        { className: "keys" },
-        .../** @type {string[][]} */ (rows).flatMap(([key, words]) => [h("dt", {}, key), h("dd", {}, words)]),
-      ),
+      h("dl", { className: "keys" }, .../** @type {string[][]} */ (rows).flatMap(([key, words]) => [h("dt", {}, key), h("dd", {}, words)])),
     ]),
     h("form", { method: "dialog", className: "actions" }, h("button", { type: "submit" }, "Close")),
   );

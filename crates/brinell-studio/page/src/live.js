@@ -206,14 +206,7 @@ export class Live {
       if (!this.#opening && !this.#urgent) this.#settle();
       try {
         if (this.#due) await this.#open(this.#due);
-        else if (
-          !this.opened ||
-          this.#paused ||
-          this.#urgent ||
-          this.state === "done" ||
-          this.#waits ||
-          this.state === "lost"
-        )
+        else if (!this.opened || this.#paused || this.#urgent || this.state === "done" || this.#waits || this.state === "lost")
           await new Promise((done) => {
             this.#wake = () => done(null);
           });

@@ -102,9 +102,7 @@ class Studio {
     // A page that holds a stored run can be used, and shows it, before the engine is there.
     const stored = await storedRun();
     this.about = stored?.about ?? (await (await engine).ask({ do: "about" }));
-    this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) =>
-      this.#change(spec, value, live),
-    );
+    this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) => this.#change(spec, value, live));
     this.#fill();
     this.#bind();
     const toml = await this.#first(a, stored?.toml ?? (await (await engine).ask({ do: "example", name: START })).toml);
@@ -176,8 +174,7 @@ class Studio {
   }
 
   #bind() {
-    const on = (/** @type {string} */ id, /** @type {(e: MouseEvent) => void} */ act) =>
-      byId(id).addEventListener("click", act);
+    const on = (/** @type {string} */ id, /** @type {(e: MouseEvent) => void} */ act) => byId(id).addEventListener("click", act);
     on("open", () => byId("file").click());
     byId("file").addEventListener("change", () => {
       this.take([...byId("file").files]);
@@ -185,12 +182,7 @@ class Studio {
     });
     on("pause", () => this.#pause());
     // The second half of a double click cancels nothing.
-    on(
-      "run",
-      (e) =>
-        e.detail > 1 ||
-        (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()),
-    );
+    on("run", (e) => e.detail > 1 || (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()));
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -229,11 +221,9 @@ class Studio {
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (["state", "problems", "recovered", "working", "left"].includes(kind)) this.#dirty.add("state");
     if (kind === "lost")
-      notice(
-        "lost",
-        data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`,
-        { bad: !!data.gone },
-      );
+      notice("lost", data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`, {
+        bad: !!data.gone,
+      });
     if (kind === "state" && data.state === "lost" && !document.querySelector('[data-kind="lost"].bad'))
       notice("lost", "The engine was lost again and again, so none runs. Start again tries another.");
     if (kind === "recovered") this.#recovered();
@@ -273,15 +263,13 @@ class Studio {
 
   /** The address does not name another bearing than A, which it opens. @param {Side} side that is edited */
   #unlink(side) {
-    if (side === this.sides[0] && location.hash.startsWith("#s="))
-      history.replaceState(null, "", location.pathname + location.search);
+    if (side === this.sides[0] && location.hash.startsWith("#s=")) history.replaceState(null, "", location.pathname + location.search);
   }
 
   #recovered() {
     speak("The engine was lost and runs again");
     // A server that answers again is not said to be gone.
-    if (document.querySelector('[data-kind="lost"].bad'))
-      notice("lost", "The engine answers again: the bearing was started anew.");
+    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine answers again: the bearing was started anew.");
   }
 
   /** What tells B from A, in the engine's words: of the latest verdicts of both. */
@@ -290,8 +278,7 @@ class Studio {
       before = this.difference;
     this.difference = "";
     try {
-      if (this.beside && a?.damage && b?.damage)
-        this.difference = (await this.side.live.ask({ do: "differ", a, b })).headline;
+      if (this.beside && a?.damage && b?.damage) this.difference = (await this.side.live.ask({ do: "differ", a, b })).headline;
     } catch {
       // An engine that is lost gives new verdicts when it runs again.
     }
@@ -391,11 +378,7 @@ class Studio {
     const problems = side.problems.map((p) => ({ ...p, path: pathOf(p.key) })),
       about = problems.find((p) => p.path[0] === "defects" && typeof p.path[1] === "number");
     // The damage that is refused is the one to look at.
-    if (
-      about &&
-      this.panel.selected !== Number(about.path[1]) + 1 &&
-      side.store.scenario.defects?.[Number(about.path[1])]
-    )
+    if (about && this.panel.selected !== Number(about.path[1]) + 1 && side.store.scenario.defects?.[Number(about.path[1])])
       this.panel.select(Number(about.path[1]) + 1);
     const rest = lay(this.#fields, problems);
     notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, {
@@ -407,11 +390,7 @@ class Studio {
   /** @param {unknown} error @param {string} [file] what it is about */
   #failed(error, file = "") {
     const words =
-      error instanceof Refused
-        ? error.problems.map((p) => p.message).join(" ")
-        : error instanceof Error
-          ? error.message
-          : String(error);
+      error instanceof Refused ? error.problems.map((p) => p.message).join(" ") : error instanceof Error ? error.message : String(error);
     notice("failed", words.includes(file) ? words : `${file}: ${words}`, { bad: true });
   }
 
@@ -443,23 +422,13 @@ class Studio {
       bad = side.problems.length > 0,
       node = byId("state");
     const words =
-      state === "lost"
-        ? "engine lost"
-        : side.live.working
-          ? "working"
-          : state === "running"
-            ? `running ${side.percent} %`
-            : state;
-    node.textContent =
-      words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
+      state === "lost" ? "engine lost" : side.live.working ? "working" : state === "running" ? `running ${side.percent} %` : state;
+    node.textContent = words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
     node.title = side.opened.quick ? "Damage acts by quick tables until the scenario's own are made" : "";
     node.dataset.state = state;
     node.toggleAttribute("data-bad", bad);
-    byId("run").textContent = side.live.whole
-      ? "Cancel"
-      : `Run ${short(side.live.opened.samples / side.live.opened.rate_hz)} s`;
-    byId("pause").textContent =
-      state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
+    byId("run").textContent = side.live.whole ? "Cancel" : `Run ${short(side.live.opened.samples / side.live.opened.rate_hz)} s`;
+    byId("pause").textContent = state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
     this.panel.raceway.frozen = state === "paused" || state === "done" || state === "lost";
   }
 
@@ -475,8 +444,7 @@ class Studio {
     const target = /** @type {HTMLElement} */ (e.target);
     if (e.key === "?" && !target.matches("input[type=text], select, textarea, dialog *")) return showKeys();
     if (e.ctrlKey || e.metaKey) {
-      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *"))
-        return;
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *")) return;
       e.preventDefault();
       return e.shiftKey ? this.panel.step() : this.panel.step(() => this.#undo());
     }

@@ -45,17 +45,11 @@ export function line(label, input, unit, note) {
 const number = (text) => (text.trim() === "" ? null : numberOf(text));
 
 /** What a field says, null where it is what the file states: the engine then takes it from there, and says so. @param {HTMLInputElement} input @param {unknown} stated */
-const given = (input, stated) =>
-  input.value.trim() === "" || input.value === String(stated ?? "") ? null : input.value.trim();
+const given = (input, stated) => (input.value.trim() === "" || input.value === String(stated ?? "") ? null : input.value.trim());
 
 /** A channel in a list. @param {any} c */
 const listed = (c) =>
-  [
-    c.name,
-    c.samples ? `${c.samples} samples` : "",
-    c.rate_hz ? `${short(c.rate_hz, 6)} Hz` : "",
-    c.unit ? spelled(c.unit) : "",
-  ]
+  [c.name, c.samples ? `${c.samples} samples` : "", c.rate_hz ? `${short(c.rate_hz, 6)} Hz` : "", c.unit ? spelled(c.unit) : ""]
     .filter(Boolean)
     .join(", ");
 
@@ -151,9 +145,7 @@ export async function judged(ask, name, bytes, known, own, refused) {
           "Counts from",
           from,
           "s",
-          run
-            ? "after the load's ramp and a turn of the shaft of the run that made the file"
-            : "what comes before is left out",
+          run ? "after the load's ramp and a turn of the shaft of the run that made the file" : "what comes before is left out",
         ),
       ],
       "Judge",
@@ -192,8 +184,7 @@ export async function judged(ask, name, bytes, known, own, refused) {
 export function showMeasured(found, name, { beside, close, simulated }) {
   const root = byId("measured"),
     lay = h("input", { type: "checkbox", checked: true, onchange: () => beside(lay.checked) });
-  const curve = (/** @type {string} */ kind, /** @type {any} */ data) =>
-      Object.assign(document.createElement("brinell-curve"), { data }),
+  const curve = (/** @type {string} */ kind, /** @type {any} */ data) => Object.assign(document.createElement("brinell-curve"), { data }),
     unit = found.unit ?? "",
     alike = unit === simulated;
   const none = { unit, lines: [], behind: null, second: null },
@@ -225,9 +216,7 @@ export function showMeasured(found, name, { beside, close, simulated }) {
       h("button", { type: "button", onclick: close }, "Close"),
     ),
     h("p", { className: "used" }, (found.used ?? []).map(spelled).join("; ")),
-    ...(found.warnings ?? []).map((/** @type {string} */ words) =>
-      h("p", { className: "trouble" }, `Warning: ${words}`),
-    ),
+    ...(found.warnings ?? []).map((/** @type {string} */ words) => h("p", { className: "trouble" }, `Warning: ${words}`)),
     h("p", {}, h("strong", {}, found.headline)),
     h(
       "p",

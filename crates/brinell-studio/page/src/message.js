@@ -37,8 +37,7 @@ export function encode(message) {
     bytes = new Uint8Array(start + size);
   new DataView(bytes.buffer).setUint32(0, text.length, true);
   bytes.set(text, 4);
-  for (const [at, values] of arrays)
-    bytes.set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength), start + at);
+  for (const [at, values] of arrays) bytes.set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength), start + at);
   return bytes;
 }
 

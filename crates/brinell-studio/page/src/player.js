@@ -87,10 +87,8 @@ export class Player {
 function between(a, b, w) {
   const mix = (/** @type {number} */ x, /** @type {number} */ y) => x + w * (y - x);
   // Angles may be given within a turn.
-  const turn = (/** @type {number} */ x, /** @type {number} */ y) =>
-    x + w * Math.atan2(Math.sin(y - x), Math.cos(y - x));
-  const each = (/** @type {number[]} */ x, /** @type {number[]} */ y, /** @type {typeof mix} */ f) =>
-    x.map((v, i) => f(v, y[i]));
+  const turn = (/** @type {number} */ x, /** @type {number} */ y) => x + w * Math.atan2(Math.sin(y - x), Math.cos(y - x));
+  const each = (/** @type {number[]} */ x, /** @type {number[]} */ y, /** @type {typeof mix} */ f) => x.map((v, i) => f(v, y[i]));
   return {
     ring: turn(a.ring, b.ring),
     rows: a.rows.map((r, i) => {

@@ -59,8 +59,7 @@ export function copies({ width, view, turn }, s, reach) {
     list = [];
   // Where there is room for more than one turn, each place is shown once.
   if (width / view.scale > turn) return [s - turn * Math.round(s / turn)];
-  for (let k = Math.ceil((view.s - half - s) / turn); k <= Math.floor((view.s + half - s) / turn); k++)
-    list.push(s + k * turn);
+  for (let k = Math.ceil((view.s - half - s) / turn); k <= Math.floor((view.s + half - s) / turn); k++) list.push(s + k * turn);
   return list;
 }
 
@@ -74,10 +73,8 @@ export function draw(g, scene, c) {
   g.clip();
   surface(g, scene, c);
   for (const one of scene.damage) for (const s of copies(scene, one.s, 20)) pit(g, scene, c, one, s);
-  for (const contact of scene.contacts)
-    for (const s of copies(scene, contact.s, scene.half)) roller(g, scene, c, contact, s);
-  for (const one of scene.damage)
-    if (one.defect === scene.selected) for (const s of copies(scene, one.s, 20)) chosen(g, scene, c, one, s);
+  for (const contact of scene.contacts) for (const s of copies(scene, contact.s, scene.half)) roller(g, scene, c, contact, s);
+  for (const one of scene.damage) if (one.defect === scene.selected) for (const s of copies(scene, one.s, 20)) chosen(g, scene, c, one, s);
   marks(g, scene, c);
   g.restore();
 }
@@ -178,8 +175,7 @@ function surface(g, scene, c) {
 function outline(g, scene, one, s) {
   g.beginPath();
   for (const points of one.polygons_mm) {
-    for (let i = 0; i < points.length; i += 2)
-      g[i ? "lineTo" : "moveTo"](xOf(scene, s + points[i]), yOf(scene, one.z + points[i + 1]));
+    for (let i = 0; i < points.length; i += 2) g[i ? "lineTo" : "moveTo"](xOf(scene, s + points[i]), yOf(scene, one.z + points[i + 1]));
     g.closePath();
   }
 }
@@ -230,14 +226,9 @@ function shaded(grid, ink) {
       const at = r * columns + k,
         to = 4 * ((rows - 1 - r) * columns + k),
         d = depth[at];
-      const slope =
-        (depth[Math.min(k + 1, columns - 1) + r * columns] - (depth[Math.min(r + 1, rows - 1) * columns + k] ?? d)) /
-        deepest;
+      const slope = (depth[Math.min(k + 1, columns - 1) + r * columns] - (depth[Math.min(r + 1, rows - 1) * columns + k] ?? d)) / deepest;
       const light = Math.max(-70, Math.min(70, 160 * slope));
-      image.data.set(
-        [red + light, green + light, blue + light, d === 0 ? 0 : 90 + 150 * Math.min(1, Math.abs(d) / deepest)],
-        to,
-      );
+      image.data.set([red + light, green + light, blue + light, d === 0 ? 0 : 90 + 150 * Math.min(1, Math.abs(d) / deepest)], to);
     }
   }
   g.putImageData(image, 0, 0);

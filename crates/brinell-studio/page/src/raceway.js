@@ -143,8 +143,7 @@ export class Raceway extends HTMLElement {
   /** @param {any} frames */
   set frames(frames) {
     this.#player.push(frames);
-    if (this.#surface !== "roller" && frames?.rows)
-      this.#felt.take(frames, this.#surface, this.#row, this.#geometry?.elements ?? 0);
+    if (this.#surface !== "roller" && frames?.rows) this.#felt.take(frames, this.#surface, this.#row, this.#geometry?.elements ?? 0);
   }
 
   /** Real seconds for a simulated one. @param {number} slowness */
@@ -155,13 +154,7 @@ export class Raceway extends HTMLElement {
   /** Length of the whole turn, mm. */
   get turn() {
     const g = this.#geometry,
-      radius = !g
-        ? 1
-        : this.#surface === "outer-raceway"
-          ? g.outer_mm
-          : this.#surface === "inner-raceway"
-            ? g.inner_mm
-            : g.element_mm;
+      radius = !g ? 1 : this.#surface === "outer-raceway" ? g.outer_mm : this.#surface === "inner-raceway" ? g.inner_mm : g.element_mm;
     return 2 * Math.PI * radius;
   }
 
@@ -176,9 +169,7 @@ export class Raceway extends HTMLElement {
       "inner-raceway": "Inner raceway",
       roller: `Roller ${this.#rollerOf}`,
     };
-    const there = this.#damage.length
-      ? `${this.#damage.length} damaged ${this.#damage.length === 1 ? "place" : "places"}`
-      : "no damage";
+    const there = this.#damage.length ? `${this.#damage.length} damaged ${this.#damage.length === 1 ? "place" : "places"}` : "no damage";
     this.canvas.setAttribute(
       "aria-label",
       `${names[this.#surface]}, row ${this.#row}, unrolled: ${there}. ${words} Enter draws with the tool, arrows move.`,
@@ -316,8 +307,7 @@ export class Raceway extends HTMLElement {
     } else if (e.button === 1) this.#drag = { ...drag, kind: "pan", view: this.#view };
     else if (this.#tool === "select") this.#drag = this.#grasp(drag);
     else if (this.#tool === "points") this.#drag = { ...drag, kind: "corner" };
-    else
-      this.#drag = { ...drag, kind: this.#tool === "pen" || this.#tool === "brush" ? "stroke" : "shape", begun: false };
+    else this.#drag = { ...drag, kind: this.#tool === "pen" || this.#tool === "brush" ? "stroke" : "shape", begun: false };
   }
 
   /** What the select tool takes hold of. @param {any} drag */
@@ -327,9 +317,7 @@ export class Raceway extends HTMLElement {
     const chosen = this.#damage.find((one) => one.defect === this.selected);
     if (chosen) {
       for (const s of copies(scene, chosen.s, 20)) {
-        const which = scene.handles.findIndex(
-          ([hs, hz]) => Math.hypot(xOf(scene, s + hs) - x, yOf(scene, hz) - y) < HANDLE_PX,
-        );
+        const which = scene.handles.findIndex(([hs, hz]) => Math.hypot(xOf(scene, s + hs) - x, yOf(scene, hz) - y) < HANDLE_PX);
         if (which >= 0)
           return {
             ...drag,
@@ -364,15 +352,13 @@ export class Raceway extends HTMLElement {
     // A finger that rests has not drawn yet: a second one may come.
     if (
       !drag.moved &&
-      Math.hypot(pixel[0] - drag.pixel[0], pixel[1] - drag.pixel[1]) <
-        (e.pointerType === "touch" ? 2 * SLIP_PX : SLIP_PX / 2)
+      Math.hypot(pixel[0] - drag.pixel[0], pixel[1] - drag.pixel[1]) < (e.pointerType === "touch" ? 2 * SLIP_PX : SLIP_PX / 2)
     )
       return;
     drag.moved = true;
     const at = this.#mm(pixel);
     if (drag.kind === "overview") this.#slide(pixel);
-    else if (drag.kind === "pan")
-      this.#view = { ...drag.view, s: drag.view.s - (pixel[0] - drag.pixel[0]) / drag.view.scale };
+    else if (drag.kind === "pan") this.#view = { ...drag.view, s: drag.view.s - (pixel[0] - drag.pixel[0]) / drag.view.scale };
     else this.#pull(drag, at, e);
   }
 
@@ -388,10 +374,8 @@ export class Raceway extends HTMLElement {
       for (const one of e.getCoalescedEvents?.() ?? []) this.#along(this.#mm(this.#pixel(one)));
       this.#along(at);
       this.#send({ type: "stroke", tool: /** @type {any} */ (this.#tool), points: this.#stroke, fresh: false });
-    } else if (drag.kind === "shape")
-      this.#send({ type: "shape", ...shapeBetween(this.#tool, drag.from, at, this.#geometry.length_mm) });
-    else if (drag.kind === "move")
-      this.#send({ type: "move", s: drag.s + at[0] - drag.from[0], z: drag.z + at[1] - drag.from[1] });
+    } else if (drag.kind === "shape") this.#send({ type: "shape", ...shapeBetween(this.#tool, drag.from, at, this.#geometry.length_mm) });
+    else if (drag.kind === "move") this.#send({ type: "move", s: drag.s + at[0] - drag.from[0], z: drag.z + at[1] - drag.from[1] });
     else if (drag.kind === "resize") {
       const { shape, ds, dz } = resized(drag.shape, drag.which, [at[0] - drag.s, at[1] - drag.z]);
       this.#send({ type: "resize", shape });
@@ -424,14 +408,9 @@ export class Raceway extends HTMLElement {
   #tap(drag) {
     const [before, now] = [this.#tapped, performance.now()];
     this.#tapped = { at: now, pixel: drag.pixel };
-    if (
-      now - before.at < DOUBLE_MS &&
-      Math.hypot(drag.pixel[0] - before.pixel[0], drag.pixel[1] - before.pixel[1]) < 2 * SLIP_PX
-    )
-      return;
+    if (now - before.at < DOUBLE_MS && Math.hypot(drag.pixel[0] - before.pixel[0], drag.pixel[1] - before.pixel[1]) < 2 * SLIP_PX) return;
     this.#send({ type: "begin" });
-    if (drag.kind === "shape")
-      this.#send({ type: "shape", ...shapeBetween(this.#tool, drag.from, drag.from, this.#geometry.length_mm) });
+    if (drag.kind === "shape") this.#send({ type: "shape", ...shapeBetween(this.#tool, drag.from, drag.from, this.#geometry.length_mm) });
     else
       this.#send({
         type: "stroke",
@@ -491,10 +470,8 @@ export class Raceway extends HTMLElement {
 
   /** @param {WheelEvent} e */
   #wheel(e) {
-    if (Math.abs(e.deltaX) > Math.abs(e.deltaY))
-      this.#view = { ...this.#view, s: this.#view.s + e.deltaX / this.#view.scale };
-    else if (e.ctrlKey || document.activeElement === this.canvas)
-      this.zoom(Math.exp(-e.deltaY / 400), this.#pixel(e)[0]);
+    if (Math.abs(e.deltaX) > Math.abs(e.deltaY)) this.#view = { ...this.#view, s: this.#view.s + e.deltaX / this.#view.scale };
+    else if (e.ctrlKey || document.activeElement === this.canvas) this.zoom(Math.exp(-e.deltaY / 400), this.#pixel(e)[0]);
     else return;
     e.preventDefault();
   }

@@ -153,9 +153,7 @@ export function notice(kind, words, { bad = false, actions = [], stays = false }
         text,
       ),
     ),
-    stays
-      ? null
-      : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"),
+    stays ? null : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"),
   );
   if (old) old.replaceWith(node);
   else root.append(node);

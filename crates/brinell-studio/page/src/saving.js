@@ -61,11 +61,10 @@ export class Saving {
       answered = await side.live.settled();
     if (side !== this.owner.side() || this.isRefused() || !side.opened) return null;
     if (answered) return side;
-    notice(
-      "unsaved",
-      "The engine was lost before it opened what the fields say, so that is neither saved nor shared.",
-      { bad: true, actions: [["Save the last good scenario", () => this.#toml(side)]] },
-    );
+    notice("unsaved", "The engine was lost before it opened what the fields say, so that is neither saved nor shared.", {
+      bad: true,
+      actions: [["Save the last good scenario", () => this.#toml(side)]],
+    });
     return null;
   }
 
@@ -89,8 +88,7 @@ export class Saving {
     const side = await this.#present();
     if (!side) return;
     try {
-      if (!(await side.finished()))
-        return notice("failed", "The run was left before its end, so nothing was saved.", { bad: true });
+      if (!(await side.finished())) return notice("failed", "The run was left before its end, so nothing was saved.", { bad: true });
       const { name, type, bytes } = await side.live.ask({ do: "save", format });
       download(new Blob([bytes], { type }), name);
     } catch (error) {

@@ -46,10 +46,8 @@ function named(key) {
 
 /** What is allowed, in words. @param {any} s */
 function allowed(s) {
-  const low =
-    s.exclusiveMinimum !== undefined ? `> ${s.exclusiveMinimum}` : s.minimum !== undefined ? `≥ ${s.minimum}` : "";
-  const high =
-    s.exclusiveMaximum !== undefined ? `< ${s.exclusiveMaximum}` : s.maximum !== undefined ? `≤ ${s.maximum}` : "";
+  const low = s.exclusiveMinimum !== undefined ? `> ${s.exclusiveMinimum}` : s.minimum !== undefined ? `≥ ${s.minimum}` : "";
+  const high = s.exclusiveMaximum !== undefined ? `< ${s.exclusiveMaximum}` : s.maximum !== undefined ? `≤ ${s.maximum}` : "";
   const range = [low, high].filter(Boolean).join(" and ");
   const start = s.default !== undefined && typeof s.default !== "object" ? `default ${s.default}` : "";
   const parts = [range && `allowed ${range}`, start].filter(Boolean);
@@ -70,13 +68,7 @@ export function spec(schema, path, own = {}) {
   // A quantity may also be a text with its unit ("0.3 kN"): its field is that of the number.
   const types = [s.type ?? s.oneOf?.map((/** @type {any} */ o) => o.type)].flat(2),
     plain = types.includes("number") || types.includes("integer");
-  const kind = plain
-    ? "number"
-    : options?.length && options.length === s.oneOf.length
-      ? "choice"
-      : s.type === "boolean"
-        ? "flag"
-        : "text";
+  const kind = plain ? "number" : options?.length && options.length === s.oneOf.length ? "choice" : s.type === "boolean" ? "flag" : "text";
   /** @type {Spec} */
   const made = {
     path,
@@ -124,12 +116,7 @@ export function mainSpecs(schema) {
     const known = load(tree);
     return known && part(known);
   };
-  const put = (
-    /** @type {any} */ tree,
-    /** @type {any} */ all,
-    /** @type {number | null} */ force,
-    /** @type {number | null} */ turn,
-  ) => {
+  const put = (/** @type {any} */ tree, /** @type {any} */ all, /** @type {number | null} */ force, /** @type {number | null} */ turn) => {
     const before = load(tree) ?? load(all) ?? [0, 0],
       size = force ?? at(before),
       a = turn ?? angle(before);
@@ -161,8 +148,7 @@ export function mainSpecs(schema) {
       min: 0,
       read: (t) => read(t, at),
       write: (t, v, all) => put(t, all, v, null),
-      refuse: (v) =>
-        v === undefined ? "a load is missing" : v < 0 ? "a load is 0 or more; Load at angle turns it" : "",
+      refuse: (v) => (v === undefined ? "a load is missing" : v < 0 ? "a load is 0 or more; Load at angle turns it" : ""),
     }),
     spec(schema, loads, {
       label: "Load at angle",
@@ -205,8 +191,7 @@ export function defectSpecs(schema, defect, index) {
   const at = (/** @type {Path} */ path) => /** @type {Path} */ (["defects", index, ...path]);
   const shape = Object.keys(defect?.shape ?? {})[0];
   // A depth map states its own depths.
-  const list =
-    shape === "depth_map" ? [] : [spec(schema, at(["depth_um"]), { label: "Depth", span: [0.5, 200], log: true })];
+  const list = shape === "depth_map" ? [] : [spec(schema, at(["depth_um"]), { label: "Depth", span: [0.5, 200], log: true })];
   if (shape === "rectangle")
     list.push(
       spec(schema, at(["shape", "rectangle", "length_mm"]), { label: "Length", span: [0.1, 12], log: true }),
@@ -215,20 +200,14 @@ export function defectSpecs(schema, defect, index) {
   if (shape === "circle")
     list.push(spec(schema, at(["shape", "circle", "diameter_mm"]), { label: "Diameter", span: [0.05, 12], log: true }));
   if (shape === "li2023_irregular")
-    list.push(
-      spec(schema, at(["shape", "li2023_irregular", "max_width_mm"]), { label: "Width", span: [0.1, 12], log: true }),
-    );
+    list.push(spec(schema, at(["shape", "li2023_irregular", "max_width_mm"]), { label: "Width", span: [0.1, 12], log: true }));
   list.push(
     spec(schema, at(["center_deg"]), {
       label: "At",
       span: [-180, 180],
       log: false,
       write: (t, v) =>
-        set(
-          t,
-          at(["center_deg"]),
-          typeof v === "number" ? tidy(Math.abs(v) > 180 ? v - 360 * Math.ceil((v - 180) / 360) : v) : v,
-        ),
+        set(t, at(["center_deg"]), typeof v === "number" ? tidy(Math.abs(v) > 180 ? v - 360 * Math.ceil((v - 180) / 360) : v) : v),
     }),
   );
   list.push(spec(schema, at(["axial_offset_mm"]), { label: "Axial", span: [-10, 10], log: false }));

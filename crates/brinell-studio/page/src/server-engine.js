@@ -45,10 +45,7 @@ export class ServerEngine {
       this.#gone = false;
       throw new Lost("the request was given up");
     }
-    const response = await this.#fetched(
-      this.#address(BEGINS.has(String(request.do)) ? "new" : "page"),
-      encode(request),
-    );
+    const response = await this.#fetched(this.#address(BEGINS.has(String(request.do)) ? "new" : "page"), encode(request));
     if (response.status === 403)
       throw new Lost(
         "The server refuses this address: its token is new whenever the server starts. Open the address that it printed.",

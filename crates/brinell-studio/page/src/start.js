@@ -13,11 +13,7 @@ import { notice } from "./readout.js";
 export function startList(about, { side, load, failed }) {
   const select = byId("preset");
   const group = (/** @type {string} */ label, /** @type {any[]} */ list, /** @type {string} */ kind) =>
-    h(
-      "optgroup",
-      { label },
-      ...list.map((one) => h("option", { value: `${kind}:${one.name}`, title: one.words }, one.name)),
-    );
+    h("optgroup", { label }, ...list.map((one) => h("option", { value: `${kind}:${one.name}`, title: one.words }, one.name)));
   const sorted = [...about.bearings].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true })),
     bearings = (/** @type {string} */ label, /** @type {string} */ element) =>
       group(
@@ -25,11 +21,7 @@ export function startList(about, { side, load, failed }) {
         sorted.filter((b) => b.element === element),
         "bearing",
       );
-  select.append(
-    group("Examples", about.examples, "example"),
-    bearings("Ball bearings", "ball"),
-    bearings("Roller bearings", "roller"),
-  );
+  select.append(group("Examples", about.examples, "example"), bearings("Ball bearings", "ball"), bearings("Roller bearings", "roller"));
   byId("load").addEventListener("click", () => {
     const [kind, name] = select.value.split(/:(.*)/);
     // It names nothing that an edit or undo makes wrong, and the same may be chosen again.

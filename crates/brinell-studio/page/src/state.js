@@ -30,13 +30,7 @@ export function set(tree, path, value) {
     tree[key] = typeof rest[0] === "number" ? [] : {};
   }
   set(tree[key], rest, value);
-  if (
-    value === undefined &&
-    !Array.isArray(tree[key]) &&
-    typeof tree[key] === "object" &&
-    !Object.keys(tree[key]).length
-  )
-    delete tree[key];
+  if (value === undefined && !Array.isArray(tree[key]) && typeof tree[key] === "object" && !Object.keys(tree[key]).length) delete tree[key];
 }
 
 /**
@@ -182,9 +176,7 @@ async function through(bytes, stream, limit) {
 
 /** @param {string} toml */
 export async function toLink(toml) {
-  const bytes = new Uint8Array(
-    await through(new TextEncoder().encode(toml), new CompressionStream("deflate-raw"), INFLATED_LIMIT),
-  );
+  const bytes = new Uint8Array(await through(new TextEncoder().encode(toml), new CompressionStream("deflate-raw"), INFLATED_LIMIT));
   let text = "";
   for (const byte of bytes) text += String.fromCharCode(byte);
   return `#s=${btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
@@ -195,7 +187,5 @@ export async function fromLink(hash) {
   const text = /^#s=([\w-]+)$/.exec(hash)?.[1];
   if (!text) return null;
   const bytes = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
-  return new TextDecoder("utf-8", { fatal: true }).decode(
-    await through(bytes, new DecompressionStream("deflate-raw"), INFLATED_LIMIT),
-  );
+  return new TextDecoder("utf-8", { fatal: true }).decode(await through(bytes, new DecompressionStream("deflate-raw"), INFLATED_LIMIT));
 }

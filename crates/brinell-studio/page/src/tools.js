@@ -38,9 +38,7 @@ export function shapeBetween(tool, a, b, across) {
     return { shape: { rectangle: shape }, s: at[0], z: at[1] };
   }
   if (tool === "circle") {
-    const diameter = tiny
-      ? Math.min(USUAL.length_mm, tidy(0.6 * across))
-      : tidy(Math.max(SMALLEST_MM, 2 * Math.hypot(length, width)));
+    const diameter = tiny ? Math.min(USUAL.length_mm, tidy(0.6 * across)) : tidy(Math.max(SMALLEST_MM, 2 * Math.hypot(length, width)));
     return { shape: { circle: { diameter_mm: diameter } }, s: a[0], z: a[1] };
   }
   const widest = tiny ? Math.min(USUAL.width_mm, tidy(0.7 * across)) : tidy(Math.max(SMALLEST_MM, width));
@@ -152,13 +150,7 @@ export function box(one) {
   }
   if (l <= r) return [l, d, r, u];
   const grid = one.grid;
-  if (grid)
-    return [
-      grid.s0_mm,
-      grid.z0_mm,
-      grid.s0_mm + (grid.columns - 1) * grid.ds_mm,
-      grid.z0_mm + (grid.rows - 1) * grid.dz_mm,
-    ];
+  if (grid) return [grid.s0_mm, grid.z0_mm, grid.s0_mm + (grid.columns - 1) * grid.ds_mm, grid.z0_mm + (grid.rows - 1) * grid.dz_mm];
   return [-one.length_mm / 2, -one.width_mm / 2, one.length_mm / 2, one.width_mm / 2];
 }
 
@@ -167,8 +159,7 @@ export function hits(one, s, z, slack) {
   let inside = false;
   for (const p of one.polygons_mm) {
     for (let i = 0, j = p.length - 2; i < p.length; j = i, i += 2) {
-      if (p[i + 1] > z !== p[j + 1] > z && s < ((p[j] - p[i]) * (z - p[i + 1])) / (p[j + 1] - p[i + 1]) + p[i])
-        inside = !inside;
+      if (p[i + 1] > z !== p[j + 1] > z && s < ((p[j] - p[i]) * (z - p[i + 1])) / (p[j + 1] - p[i + 1]) + p[i]) inside = !inside;
     }
   }
   // Small or thin damage is taken by its box.

@@ -8,18 +8,7 @@ const SLICE_TICKS = 20,
   SHORT_TICKS = 60,
   LONG_TICKS = 600,
   SLACK = 4;
-const SHORT = new Set([
-  "advance",
-  "open",
-  "spectra",
-  "indicators",
-  "sound",
-  "damage",
-  "passage",
-  "scratch",
-  "brush",
-  "normal",
-]);
+const SHORT = new Set(["advance", "open", "spectra", "indicators", "sound", "damage", "passage", "scratch", "brush", "normal"]);
 
 /** @typedef {{id: number, done: (answer: any) => void, failed: (error: Error) => void, slice: boolean, short: boolean, asked: number}} Waiting */
 /** @typedef {import("./assets.js").Assets} Assets */
@@ -108,12 +97,7 @@ export class WorkerEngine {
     this.#ticks += 1;
     // The first slices are slow, as the browser still compiles.
     const warm = this.#slices > 3,
-      limit =
-        warm && first.slice
-          ? SLICE_TICKS + (SLACK * this.#slowest) / TICK_MS
-          : warm && first.short
-            ? SHORT_TICKS
-            : LONG_TICKS;
+      limit = warm && first.slice ? SLICE_TICKS + (SLACK * this.#slowest) / TICK_MS : warm && first.short ? SHORT_TICKS : LONG_TICKS;
     if (this.#ticks > limit) this.#lose("the Worker is silent");
   }
 

@@ -85,10 +85,7 @@ async function scratched(page) {
   });
   const line = await page.evaluate(() => globalThis.brinellStudio.side.spectra.lines.find((l) => l.name === "BPFO"));
   // The cage slips while it starts, up to 2 % below pure rolling.
-  assert.ok(
-    line.hz / line.nominal_hz > 0.98 && line.hz / line.nominal_hz < 1.005,
-    `${line.hz} Hz beside ${line.nominal_hz}`,
-  );
+  assert.ok(line.hz / line.nominal_hz > 0.98 && line.hz / line.nominal_hz < 1.005, `${line.hz} Hz beside ${line.nominal_hz}`);
 }
 
 async function refused(page) {
@@ -137,11 +134,7 @@ describe("the page with its engine, held against the command", { skip: missing }
           theirs = rms(summary, got.axis);
         // A run-up has one record and no interval. Its rollers, started in step, may fall out of it: a tenth is allowed.
         if (theirs.low !== undefined && theirs.low !== null) meet(`${name}, RMS`, own, theirs);
-        else
-          assert.ok(
-            Math.abs(own.value / theirs.value - 1) < 0.1,
-            `${name}: RMS ${own.value}, the command's ${theirs.value}`,
-          );
+        else assert.ok(Math.abs(own.value / theirs.value - 1) < 0.1, `${name}: RMS ${own.value}, the command's ${theirs.value}`);
         for (const k of summary.defects.keys()) {
           const frequency = summary.quantities[`defect${k + 1}.frequency`];
           if (typeof frequency?.value !== "number") continue;
@@ -172,9 +165,7 @@ describe("the page with its engine, held against the command", { skip: missing }
       await page.locator("brinell-sound #hear").click();
       await until(
         page,
-        () =>
-          document.querySelector("brinell-sound").context?.state === "running" &&
-          document.querySelector("brinell-sound").voice,
+        () => document.querySelector("brinell-sound").context?.state === "running" && document.querySelector("brinell-sound").voice,
       );
       t.diagnostic(`it sounds ${Math.round(performance.now() - from)} ms after the click`);
       const { strongest, nominal, loop_s } = await page.evaluate(async () => {
@@ -235,8 +226,7 @@ describe("the page with its engine, held against the command", { skip: missing }
       await until(
         page,
         () =>
-          globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 25 &&
-          globalThis.brinellStudio.side.moments.samples > 6000,
+          globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 25 && globalThis.brinellStudio.side.moments.samples > 6000,
       );
       const last = await used();
       t.diagnostic(`${first.toFixed(1)} MB before, ${last.toFixed(1)} MB after`);
@@ -255,20 +245,15 @@ describe("the page with its engine, held against the command", { skip: missing }
         await page.click('dialog button:has-text("Place on the raceway")');
         await until(
           page,
-          (n) =>
-            globalThis.brinellStudio.side.damage.length === n &&
-            globalThis.brinellStudio.side.opened.scenario.defects.length === n,
+          (n) => globalThis.brinellStudio.side.damage.length === n && globalThis.brinellStudio.side.opened.scenario.defects.length === n,
           count,
         );
         return page.evaluate(() => globalThis.brinellStudio.side.damage.at(-1));
       };
       await start(page, "scan");
-      const scan = await page.evaluate(
-        async () => (await globalThis.brinellStudio.side.live.ask({ do: "damage" })).defects[0],
-      );
+      const scan = await page.evaluate(async () => (await globalThis.brinellStudio.side.live.ask({ do: "damage" })).defects[0]);
       await start(page, "healthy");
-      const svg =
-        '<svg xmlns="http://www.w3.org/2000/svg" width="3mm" height="4mm" viewBox="0 0 3 4"><path d="M0 0H3V4H0Z"/></svg>';
+      const svg = '<svg xmlns="http://www.w3.org/2000/svg" width="3mm" height="4mm" viewBox="0 0 3 4"><path d="M0 0H3V4H0Z"/></svg>';
       await drop(page, "spall.svg", Buffer.from(svg).toString("base64"));
       await page.waitForSelector("dialog[open]");
       await fill("Millimetres per unit", "1");
@@ -315,9 +300,7 @@ describe("the page with its engine, held against the command", { skip: missing }
         { text } = await saved(page, "Signals, CSV"),
         [head, ...lines] = text.trim().split("\n");
       const column = head.split(",").indexOf(axis),
-        plotted = await page.evaluate(() =>
-          Array.from(document.querySelector('brinell-curve[kind="waveform"]').data.values),
-        );
+        plotted = await page.evaluate(() => Array.from(document.querySelector('brinell-curve[kind="waveform"]').data.values));
       const written = lines.map((l) => Number(l.split(",")[column])),
         largest = Math.max(...plotted.map(Math.abs));
       assert.equal(written.length, plotted.length);
@@ -375,9 +358,7 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     on(async (page) => {
       const turn = 12000 / (1730 / 60),
         rows = Array.from({ length: 24000 }, (_, k) =>
-          k === 12000
-            ? 300
-            : Math.sin(1.5 * k) * Math.exp(-(k % Math.round(turn / 5.415)) / 12) + 0.1 * Math.sin(k * k),
+          k === 12000 ? 300 : Math.sin(1.5 * k) * Math.exp(-(k % Math.round(turn / 5.415)) / 12) + 0.1 * Math.sin(k * k),
         );
       const text = `acc [mg]\n${rows.join("\n")}\n`,
         file = join(folder, "struck.csv");
@@ -421,11 +402,7 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
         others = [],
         rpm = (one) => one.evaluate(() => globalThis.brinellStudio.side.opened.rpm);
       const live = (one, n) =>
-        until(
-          one,
-          (n) => globalThis.brinellStudio.side.trace.end > n && globalThis.brinellStudio.side.live.state === "live",
-          n,
-        );
+        until(one, (n) => globalThis.brinellStudio.side.trace.end > n && globalThis.brinellStudio.side.live.state === "live", n);
       await start(page, "rectangle");
       // It rests, so it is the one whose place is taken.
       await page.click("#pause");

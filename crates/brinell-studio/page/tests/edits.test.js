@@ -42,8 +42,7 @@ describe("edits", () => {
     on({}, async (page) => {
       await start(page, "rectangle");
       const speed = page.getByLabel("Speed", { exact: true }),
-        runs = (rpm) =>
-          until(page, (rpm) => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === rpm, rpm);
+        runs = (rpm) => until(page, (rpm) => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === rpm, rpm);
       await type(speed, "1500");
       await runs(1500);
       await start(page, "rectangle");
@@ -164,8 +163,7 @@ describe("edits", () => {
         ["1,", 1],
       ])
         assert.equal(numberOf(text), value);
-      for (const text of ["1,234", "-12,345", "25 Hz", "1.2.3", "", "-"])
-        assert.equal(typeof numberOf(text), "string", text);
+      for (const text of ["1,234", "-12,345", "25 Hz", "1.2.3", "", "-"]) assert.equal(typeof numberOf(text), "string", text);
       await start(page, "rectangle");
       const speed = page.getByLabel("Speed", { exact: true }),
         stated = async () => (await scenario(page)).operation.speed_rpm;
@@ -187,8 +185,7 @@ describe("edits", () => {
       await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1500);
       await type(speed, "25,5 Hz");
       await until(page, () => globalThis.brinellStudio.side.opened.all.operation.speed_rpm === 1530);
-      const shown = () =>
-        until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
+      const shown = () => until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
       await shown();
       // The same again is shown in the field's unit again.
       await type(speed, "25,5Hz");
@@ -255,9 +252,7 @@ describe("edits", () => {
       assert.equal(await field("Noise, RMS").inputValue(), "0.1 g");
       await type(field("Speed"), "1797");
       await until(page, () => globalThis.brinellStudio.side.opened.all.sensor?.noise_rms_m_per_s2 > 0.9);
-      await until(page, () =>
-        [...document.querySelectorAll("#controls input")].some((one) => one.value === "0.980665"),
-      );
+      await until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "0.980665"));
       await page.evaluate(() => {
         for (const one of document.querySelectorAll("#controls details")) one.open = true;
       });
@@ -296,9 +291,7 @@ describe("edits", () => {
     quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
       await start(page, "rectangle");
       await page.route("**/ask*", (route) => route.abort());
-      await page.waitForSelector(
-        '[data-kind="lost"]:has-text("The server does not answer. Start again tries once more")',
-      );
+      await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start again tries once more")');
       await type(page.getByLabel("Speed", { exact: true }), "1450");
       await page.click("#save");
       await page.click('#save-list button:has-text("Scenario")');
@@ -310,8 +303,7 @@ describe("edits", () => {
       await until(
         page,
         () =>
-          globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1450 &&
-          globalThis.brinellStudio.side.live.state === "live",
+          globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1450 && globalThis.brinellStudio.side.live.state === "live",
       );
       assert.match((await saved(page, "Scenario")).text, /1450/);
       page.said = page.said.filter((words) => !/ERR_FAILED/.test(words));
@@ -322,12 +314,7 @@ describe("edits", () => {
       await start(page, "rectangle");
       const speed = page.getByLabel("Speed", { exact: true }),
         good = () =>
-          until(
-            page,
-            () =>
-              !globalThis.brinellStudio.side.problems.length &&
-              !document.querySelector('#controls [aria-invalid="true"]'),
-          );
+          until(page, () => !globalThis.brinellStudio.side.problems.length && !document.querySelector('#controls [aria-invalid="true"]'));
       for (const again of ["Enter", "Tab"]) {
         await type(speed, "");
         await page.waitForSelector('#controls [aria-invalid="true"]');
@@ -348,10 +335,7 @@ describe("edits", () => {
       await page.waitForSelector('#controls [role="alert"]:has-text("a load is 0 or more")');
       await type(load, "0");
       await type(load, "300");
-      await until(
-        page,
-        () => Math.abs(globalThis.brinellStudio.side.store.scenario.operation.load_n[1] - 212.132) < 0.01,
-      );
+      await until(page, () => Math.abs(globalThis.brinellStudio.side.store.scenario.operation.load_n[1] - 212.132) < 0.01);
       await holds(angle, "45");
     }));
 
@@ -360,10 +344,7 @@ describe("edits", () => {
       await start(page, "rectangle");
       const speed = page.getByLabel("Speed", { exact: true }),
         load = page.getByLabel("Load", { exact: true });
-      const stated = async () => [
-        (await scenario(page)).operation.speed_rpm,
-        (await scenario(page)).operation.load_n[0],
-      ];
+      const stated = async () => [(await scenario(page)).operation.speed_rpm, (await scenario(page)).operation.load_n[0]];
       const shows = (field, value) =>
         until(
           page,

@@ -47,15 +47,12 @@ describe("the engine as WebAssembly", () => {
       const { toml } = ask({ do: "example", name }),
         before = process.cpuUsage();
       found[name] = run(ask, recorded(toml), 256);
-      t.diagnostic(
-        `${name}: ${(process.cpuUsage(before).user / 1e5).toFixed(2)} s of processor time for a simulated second`,
-      );
+      t.diagnostic(`${name}: ${(process.cpuUsage(before).user / 1e5).toFixed(2)} s of processor time for a simulated second`);
     }
     if (process.env.GOLDEN === "write") return writeFileSync(FILE, `${JSON.stringify(found, null, 1)}\n`);
     assert.deepEqual(found, GOLDEN);
     const rectangle = recorded(ask({ do: "example", name: "rectangle" }).toml);
-    for (const rows of [1, 100, 10000])
-      assert.deepEqual(run((await hosted(module)).ask, rectangle, rows), GOLDEN.rectangle);
+    for (const rows of [1, 100, 10000]) assert.deepEqual(run((await hosted(module)).ask, rectangle, rows), GOLDEN.rectangle);
   });
 
   it("keeps its memory over a thousand messages and a hundred edits", async (t) => {

@@ -112,10 +112,7 @@ describe("an engine behind a server", () => {
 
   it("says plainly that other pages have its engine", async () => {
     const { asked, engine } = before([410]);
-    await assert.rejects(
-      engine.ask({ do: "advance" }),
-      (error) => error.gone && /four pages at a time.*Start again/.test(error.message),
-    );
+    await assert.rejects(engine.ask({ do: "advance" }), (error) => error.gone && /four pages at a time.*Start again/.test(error.message));
     assert.equal(asked.length, 1, "it does not take the engine back by itself");
   });
 });

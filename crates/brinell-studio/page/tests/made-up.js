@@ -38,9 +38,7 @@ export function waveform({ n = 8192, rate = 25600, size = 90, shift = 0, seed = 
       since = t % period,
       strength = 0.6 + 0.4 * Math.sin(TAU * 30 * t);
     values[i] =
-      size * strength * Math.exp(-since * 900) * Math.sin(TAU * 4200 * since) +
-      8 * (noise() + noise() - 1) +
-      3 * Math.sin(TAU * 30 * t);
+      size * strength * Math.exp(-since * 900) * Math.sin(TAU * 4200 * since) + 8 * (noise() + noise() - 1) + 3 * Math.sin(TAU * 30 * t);
   }
   return { x0: shift, dx: 1 / rate, values };
 }
@@ -52,8 +50,7 @@ export function spectrum({ n = 4097, df = 12800 / 4096, size = 1, seed = 2 } = {
     const f = i * df,
       hump = 1.4 * Math.exp(-(((f - 4200) / 500) ** 2)) + 0.3 * Math.exp(-(((f - 8900) / 700) ** 2));
     values[i] =
-      (0.02 + size * hump * (0.25 + Math.abs(Math.cos((TAU * f) / BPFO / 2)) ** 40)) * (0.4 + noise()) +
-      (Math.abs(f - 30) < df ? 0.5 : 0);
+      (0.02 + size * hump * (0.25 + Math.abs(Math.cos((TAU * f) / BPFO / 2)) ** 40)) * (0.4 + noise()) + (Math.abs(f - 30) < df ? 0.5 : 0);
   }
   return { x0: 0, dx: df, values };
 }

@@ -43,13 +43,9 @@ describe("the page", () => {
     const page = await open(browser, file, { before });
     await until(
       page,
-      () =>
-        document.querySelector('brinell-curve[kind="envelope"]')?.data?.stored &&
-        document.querySelector("#controls input"),
+      () => document.querySelector('brinell-curve[kind="envelope"]')?.data?.stored && document.querySelector("#controls input"),
     );
-    t.diagnostic(
-      `usable, with the stored curves, ${Math.round(await page.evaluate(() => performance.now()))} ms after the window opened`,
-    );
+    t.diagnostic(`usable, with the stored curves, ${Math.round(await page.evaluate(() => performance.now()))} ms after the window opened`);
     await says(page, /stored run/);
     assert.match(await page.textContent("footer"), /^Stored run, shown while the engine loads/);
     // What is edited before is in the bearing that runs then.
@@ -58,9 +54,7 @@ describe("the page", () => {
     await page.evaluate(() => globalThis.letGo());
     await until(
       page,
-      () =>
-        globalThis.brinellStudio.side.live.opened?.scenario.defects?.length === 2 &&
-        globalThis.brinellStudio.side.spectra,
+      () => globalThis.brinellStudio.side.live.opened?.scenario.defects?.length === 2 && globalThis.brinellStudio.side.spectra,
     );
     assert.ok(!(await page.evaluate(() => document.querySelector('brinell-curve[kind="envelope"]').data?.stored)));
     assert.deepEqual(page.said, []);
@@ -111,9 +105,7 @@ describe("the page", () => {
         times.push(await page.evaluate(() => globalThis.drawn));
       }
       await page.mouse.up();
-      t.diagnostic(
-        `a stroke is in the running bearing after ${Math.round(times.sort((a, b) => a - b)[4])} ms (median of 8)`,
-      );
+      t.diagnostic(`a stroke is in the running bearing after ${Math.round(times.sort((a, b) => a - b)[4])} ms (median of 8)`);
       const from = performance.now();
       await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 1);
       const [defect] = (await scenario(page)).defects;
@@ -135,10 +127,7 @@ describe("the page", () => {
         })
       ).jsonValue();
       // Up to 2 % below pure rolling: the cage slips while it starts, and the first half second has no other revolutions.
-      assert.ok(
-        line.hz / line.nominal_hz > 0.98 && line.hz / line.nominal_hz < 1.005,
-        `${line.hz} Hz beside ${line.nominal_hz}`,
-      );
+      assert.ok(line.hz / line.nominal_hz > 0.98 && line.hz / line.nominal_hz < 1.005, `${line.hz} Hz beside ${line.nominal_hz}`);
       t.diagnostic(`kurtosis ${healthy.kurtosis.toFixed(1)} without damage, ${damaged.kurtosis.toFixed(1)} with`);
       // How impulsive it is follows from where the scratch lies and from what swings: no evidence here.
       assert.ok(damaged.rms > 2 * healthy.rms, `${JSON.stringify(healthy)} to ${JSON.stringify(damaged)}`);
@@ -186,8 +175,7 @@ describe("the page", () => {
   it("ends and takes back what its tools draw", async () =>
     on({}, async (page) => {
       await start(page, "healthy");
-      const count = (n) =>
-        until(page, (k) => (globalThis.brinellStudio.side.opened.scenario.defects?.length ?? 0) === k, n);
+      const count = (n) => until(page, (k) => (globalThis.brinellStudio.side.opened.scenario.defects?.length ?? 0) === k, n);
       // A double click is one circle of 3 mm.
       await page.click('[data-tool="circle"]');
       await page.mouse.dblclick(...(await place(page, 0.2, 0.5)));
@@ -240,18 +228,11 @@ describe("the page", () => {
       await start(page, "healthy");
       await drop(page, "spall.jpg", Buffer.from("not a picture").toString("base64"));
       await page.waitForSelector("dialog[open]");
-      await page
-        .locator("dialog .field", { hasText: "Millimetres per pixel" })
-        .locator("input[inputmode]")
-        .fill("0,02");
+      await page.locator("dialog .field", { hasText: "Millimetres per pixel" }).locator("input[inputmode]").fill("0,02");
       await page.keyboard.press("Tab");
       await until(page, () => document.querySelector("dialog .trouble")?.textContent);
       await page.click('dialog button:has-text("Cancel")');
-      await drop(
-        page,
-        "photo-spall.png",
-        (await readFile(resolve(ROOT, "../examples/photo-spall.png"))).toString("base64"),
-      );
+      await drop(page, "photo-spall.png", (await readFile(resolve(ROOT, "../examples/photo-spall.png"))).toString("base64"));
       await page.click('dialog button:has-text("Open")');
       // What was not requested yet is no error.
       await until(page, () => /Still needed/.test(document.querySelector("dialog")?.textContent ?? ""));
@@ -316,18 +297,14 @@ describe("the page", () => {
       await until(page, () => globalThis.brinellStudio.sides[1]?.opened && globalThis.brinellStudio.side.name === "B");
       assert.ok(
         await page.evaluate(
-          async () =>
-            (await globalThis.brinellStudio.sides[0].live.engine) !==
-            (await globalThis.brinellStudio.sides[1].live.engine),
+          async () => (await globalThis.brinellStudio.sides[0].live.engine) !== (await globalThis.brinellStudio.sides[1].live.engine),
         ),
       );
       await page.click('[data-tool="rectangle"]');
       await drag(page, [0.45, 0.3], [0.5, 0.7]);
       await until(
         page,
-        () =>
-          globalThis.brinellStudio.sides[1].opened.scenario.defects?.length === 1 &&
-          globalThis.brinellStudio.sides[1].spectra,
+        () => globalThis.brinellStudio.sides[1].opened.scenario.defects?.length === 1 && globalThis.brinellStudio.sides[1].spectra,
       );
       await page.click("#both");
       await until(page, () => document.querySelectorAll("footer .name").length === 2);
@@ -363,9 +340,7 @@ describe("the page", () => {
       // Bursts of a rolling 6205's inner race, one of them far above the others.
       const turn = 12000 / (1730 / 60),
         burst = (k) => Math.sin(k * 1.5) * Math.exp(-(k % Math.round(turn / 5.415)) / 12);
-      const rows = Array.from({ length: 24000 }, (_, k) => (k === 12000 ? 300 : burst(k) + 0.1 * Math.sin(k * k))).join(
-        "\n",
-      );
+      const rows = Array.from({ length: 24000 }, (_, k) => (k === 12000 ? 300 : burst(k) + 0.1 * Math.sin(k * k))).join("\n");
       const dropped = (name) => drop(page, name, Buffer.from(`x\n${rows}\n`).toString("base64"));
       const judge = () => page.click('dialog button:has-text("Judge")');
       await dropped("measured.csv");
@@ -393,10 +368,7 @@ describe("the page", () => {
         await page.textContent("#measured .used"),
         /^bearing: .*6205-2RS.*; shaft speed 1730 r\/min, as given.*; sample rate 12000 Hz, as given; unit g, as given; channel x: /,
       );
-      assert.match(
-        await page.textContent("#measured .trouble"),
-        /^Warning: .*of the signal's energy lie in one revolution/,
-      );
+      assert.match(await page.textContent("#measured .trouble"), /^Warning: .*of the signal's energy lie in one revolution/);
       assert.match(await page.textContent("#measured .levels"), /^rms .* g, peak .* g/);
       assert.match(await page.textContent("#measured"), /; curves in m\/s²/);
       // What is no acceleration has its own axes alone.
@@ -413,10 +385,7 @@ describe("the page", () => {
       await judge();
       await page.waitForSelector('#measured:has-text("in V: it cannot be laid beside")');
       await until(page, () => !document.querySelector('brinell-curve[kind="spectrum"]').data?.second);
-      assert.equal(
-        await page.evaluate(() => document.querySelector('#measured brinell-curve[kind="spectrum"]').data.unit),
-        "V",
-      );
+      assert.equal(await page.evaluate(() => document.querySelector('#measured brinell-curve[kind="spectrum"]').data.unit), "V");
       // What goes wrong with another file takes that verdict away and names the file; what goes well takes the complaint away.
       await drop(page, "broken.wav", Buffer.from("no sound").toString("base64"));
       await page.waitForSelector('[data-kind="failed"]:has-text("broken.wav")');
@@ -439,9 +408,7 @@ describe("the page", () => {
       await page.fill("#ask-speed-of-the-shaft", "");
       await page.selectOption("#ask-channel", { index: 1 });
       assert.deepEqual(
-        await page.evaluate(() =>
-          ["sampling-rate", "unit", "speed-of-the-shaft"].map((id) => document.getElementById(`ask-${id}`).value),
-        ),
+        await page.evaluate(() => ["sampling-rate", "unit", "speed-of-the-shaft"].map((id) => document.getElementById(`ask-${id}`).value)),
         ["12000", "g", ""],
       );
       assert.match(await page.textContent("dialog"), /as typed/);
@@ -473,10 +440,7 @@ describe("the page", () => {
       await page.keyboard.press("]");
       await settled(page);
       const moved = (await scenario(page)).defects[0];
-      assert.ok(
-        Math.abs(moved.center_deg - drawn.center_deg - 11) < 0.01,
-        `${drawn.center_deg} to ${moved.center_deg}`,
-      );
+      assert.ok(Math.abs(moved.center_deg - drawn.center_deg - 11) < 0.01, `${drawn.center_deg} to ${moved.center_deg}`);
       assert.equal(moved.axial_offset_mm, 0.1);
       assert.ok(moved.depth_um > drawn.depth_um);
       await settled(page);
@@ -544,10 +508,7 @@ describe("the page", () => {
 
   it("needs no scrolling aside at 390 px, and a finger draws", async () =>
     on({ width: 390, height: 844, hasTouch: true }, async (page) => {
-      const [scroll, client] = await page.evaluate(() => [
-        document.documentElement.scrollWidth,
-        document.documentElement.clientWidth,
-      ]);
+      const [scroll, client] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
       assert.ok(scroll <= client, `${scroll} px wide in ${client}`);
       await start(page, "healthy");
       await page.locator("brinell-raceway canvas").scrollIntoViewIfNeeded();
@@ -614,10 +575,7 @@ describe("the page", () => {
       await drag(page, [0.7, 0.5], [0.71, 0.5]);
       await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects.length === 2);
       await page.click("#side-b");
-      await until(
-        page,
-        () => globalThis.brinellStudio.sides[1]?.opened && globalThis.brinellStudio.sides[1].trace.end > 500,
-      );
+      await until(page, () => globalThis.brinellStudio.sides[1]?.opened && globalThis.brinellStudio.sides[1].trace.end > 500);
       assert.notEqual(
         await page.evaluate(() => globalThis.brinellStudio.sides[0].live.slot),
         await page.evaluate(() => globalThis.brinellStudio.sides[1].live.slot),

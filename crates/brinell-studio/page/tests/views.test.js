@@ -34,8 +34,7 @@ async function on(options, look) {
   await look(page);
   assert.deepEqual(page.said, []);
 }
-const drawn = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const curve = (page, kind) => page.locator(`brinell-curve[kind="${kind}"]`);
 const plot = (page, kind) => curve(page, kind).locator(".plot");
 const view = (page, kind) => curve(page, kind).evaluate((node) => [...node.view]);
@@ -131,8 +130,7 @@ describe("curves", () => {
       const zoomed = await view(page, "envelope"),
         wide = home[1] - home[0];
       assert.ok(
-        Math.abs(zoomed[0] - home[0] - 0.25 * wide) < 0.01 * wide &&
-          Math.abs(zoomed[1] - home[0] - 0.4 * wide) < 0.01 * wide,
+        Math.abs(zoomed[0] - home[0] - 0.25 * wide) < 0.01 * wide && Math.abs(zoomed[1] - home[0] - 0.4 * wide) < 0.01 * wide,
         `${zoomed} of ${home}`,
       );
       await page.evaluate(() => {
@@ -195,10 +193,7 @@ describe("curves", () => {
       assert.deepEqual(await view(page, "envelope"), home);
       await page.keyboard.press("l");
       await drawn(page);
-      assert.equal(
-        await curve(page, "envelope").getByRole("button", { name: "dB" }).getAttribute("aria-pressed"),
-        "true",
-      );
+      assert.equal(await curve(page, "envelope").getByRole("button", { name: "dB" }).getAttribute("aria-pressed"), "true");
     }));
 
   it("shows a spectrum in dB", async () =>
@@ -220,9 +215,7 @@ describe("curves", () => {
       await curve(page, "envelope").locator("summary").click();
       const rows = curve(page, "envelope").locator("tbody tr");
       await rows.first().waitFor();
-      const cells = await rows.evaluateAll((all) =>
-        all.map((row) => [...row.children].map((cell) => cell.textContent)),
-      );
+      const cells = await rows.evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
       assert.deepEqual(
         cells.map((row) => row[0]),
         ["BPFO", "BPFO ×2", "BPFO ×3", "BPFO ×4", "BPFO ×5", "BPFI", "BSF", "FTF"],
@@ -235,9 +228,7 @@ describe("curves", () => {
       assert.ok(Math.abs(Number(cells[1][3]) - value) < 1e-3 * value);
       assert.equal(cells[5].at(-2), "not found");
       await page
-        .locator(
-          'brinell-curve[kind="envelope"] [aria-label*="BPFO at 249.5 Hz, nominal 250.1 Hz, 5 harmonics, 20.1 dB"]',
-        )
+        .locator('brinell-curve[kind="envelope"] [aria-label*="BPFO at 249.5 Hz, nominal 250.1 Hz, 5 harmonics, 20.1 dB"]')
         .waitFor({ state: "attached" });
     }));
 
@@ -252,8 +243,7 @@ describe("curves", () => {
           "the curve",
         );
         assert.ok(words.some((w) => /m\/s²/.test(w)) && words.some((w) => /(ms|k?Hz)$/.test(w)), words.join("|"));
-        if (kind === "envelope")
-          for (const label of ["BPFO", "×2", "×5", "BPFI"]) assert.ok(words.includes(label), label);
+        if (kind === "envelope") for (const label of ["BPFO", "×2", "×5", "BPFI"]) assert.ok(words.includes(label), label);
         assert.ok(png[0] >= 960 && png[1] >= 400, `${png}`);
       }
     }));
@@ -262,10 +252,7 @@ describe("curves", () => {
 describe("a zoomed envelope", () => {
   it("marks where the nominal frequency is beside the one found", async () =>
     on({}, async (page) => {
-      assert.ok(
-        !(await saved(page, "[kind=envelope]")).words.includes("nominal BPFO"),
-        "too near to be told apart at first",
-      );
+      assert.ok(!(await saved(page, "[kind=envelope]")).words.includes("nominal BPFO"), "too near to be told apart at first");
       await curve(page, "envelope").evaluate((node) => {
         node.zoom([240, 260]);
       });
@@ -374,11 +361,7 @@ describe("the bearing", () => {
           }
           const before = [motion.state.ring, motion.state.rows[0].cage];
           motion.go(2e-4);
-          worst = Math.max(
-            worst,
-            wrap(motion.state.ring - before[0], turn),
-            wrap(motion.state.rows[0].cage - before[1], turn / 19),
-          );
+          worst = Math.max(worst, wrap(motion.state.ring - before[0], turn), wrap(motion.state.rows[0].cage - before[1], turn / 19));
           if (motion.clip !== clip) {
             clips++;
             clip = motion.clip;
@@ -431,11 +414,7 @@ describe("the bearing", () => {
   it("shows damage, forces and rows, and saves them", async () =>
     on({}, async (page) => {
       const canvas = page.locator("brinell-bearing canvas");
-      const [damaged, outer, inner] = [
-        await inked(canvas, DAMAGE),
-        await inked(canvas, BLUE),
-        await inked(canvas, GREEN),
-      ];
+      const [damaged, outer, inner] = [await inked(canvas, DAMAGE), await inked(canvas, BLUE), await inked(canvas, GREEN)];
       assert.ok(damaged > 60 && outer > 300 && inner > 200, `${damaged} ${outer} ${inner}`);
       assert.match(
         await canvas.getAttribute("aria-label"),
@@ -502,9 +481,7 @@ describe("the passage", () => {
 
 describe("the sound", () => {
   const audio = (page) =>
-    page
-      .locator("brinell-sound")
-      .evaluate((node) => ({ context: node.context?.state ?? null, state: node.dataset.state }));
+    page.locator("brinell-sound").evaluate((node) => ({ context: node.context?.state ?? null, state: node.dataset.state }));
 
   it("is never heard before the click, then runs, takes newer loops over and ends", async () =>
     on({}, async (page) => {
@@ -561,13 +538,10 @@ describe("the sound", () => {
         const part = x.slice(Math.round(0.5 * rate_hz), Math.round(1.5 * rate_hz));
         const line = (hz) =>
           Math.hypot(
-            ...[Math.cos, Math.sin].map((f) =>
-              part.reduce((sum, v, i) => sum + Math.abs(v) * f((2 * Math.PI * hz * i) / rate_hz), 0),
-            ),
+            ...[Math.cos, Math.sin].map((f) => part.reduce((sum, v, i) => sum + Math.abs(v) * f((2 * Math.PI * hz * i) / rate_hz), 0)),
           );
         const at = line(40);
-        for (const hz of [31, 35, 37, 43, 45, 50])
-          assert.ok(at > 10 * line(hz), `${at} at 40 Hz, ${line(hz)} at ${hz} Hz`);
+        for (const hz of [31, 35, 37, 43, 45, 50]) assert.ok(at > 10 * line(hz), `${at} at 40 Hz, ${line(hz)} at ${hz} Hz`);
         assert.ok(Math.max(...part.map(Math.abs)) <= 1);
       }));
   }
@@ -590,22 +564,17 @@ describe("every view", () => {
         );
         await page.evaluate(axe);
         const found = await page.evaluate(async () =>
-          (await window.axe.run()).violations.map(
-            (v) => `${v.impact} ${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 3)}`,
-          ),
+          (await window.axe.run()).violations.map((v) => `${v.impact} ${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 3)}`),
         );
         assert.deepEqual(found, []);
-        const sideways = await page.evaluate(
-          () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
-        );
+        const sideways = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
         assert.ok(sideways <= 0, `${sideways} px aside`);
       }));
   }
 
   it("takes the page's scheme and colours", async () =>
     on({}, async (page) => {
-      const own = () =>
-        page.locator("brinell-bearing").evaluate((node) => [node.getAttribute("scheme"), node.colours.blue]);
+      const own = () => page.locator("brinell-bearing").evaluate((node) => [node.getAttribute("scheme"), node.colours.blue]);
       assert.deepEqual(await own(), ["light", "#0072b2"]);
       await page.evaluate(() => {
         document.documentElement.style.colorScheme = "dark";
@@ -622,8 +591,7 @@ describe("every view", () => {
   it("fits its canvas to box and pixels", async () =>
     on({ width: 390, deviceScaleFactor: 3 }, async (page) => {
       for (const name of ["brinell-bearing", "brinell-passage", 'brinell-curve[kind="waveform"]']) {
-        const sizes = () =>
-          page.locator(`${name} canvas`).evaluate((c) => [c.width, Math.round(c.getBoundingClientRect().width * 3)]);
+        const sizes = () => page.locator(`${name} canvas`).evaluate((c) => [c.width, Math.round(c.getBoundingClientRect().width * 3)]);
         const [fine, shown] = await sizes();
         assert.ok(Math.abs(fine - shown) <= 3, `${name}: ${fine} for ${shown}`);
         await page.setViewportSize({ width: 360, height: 900 });
@@ -664,9 +632,7 @@ describe("every view", () => {
           ring: of("brinell-bearing").motion.state.ring !== ring,
         };
       });
-      t.diagnostic(
-        `${(frames / seconds).toFixed(0)} frames a second with three curves of 4097 to 8192 values and the bearing`,
-      );
+      t.diagnostic(`${(frames / seconds).toFixed(0)} frames a second with three curves of 4097 to 8192 values and the bearing`);
       assert.ok(
         drawings.every((n) => n >= frames - 2),
         `${drawings}`,

@@ -75,14 +75,7 @@ export class BrinellBearing extends View {
     );
     this.paceTold = h("output");
     this.rowsPick = h("select", { "aria-label": "Row shown" });
-    const bar = h(
-      "div",
-      { class: "tools bar" },
-      this.playButton,
-      this.turnButton,
-      h("label", {}, this.pace, this.paceTold),
-      this.rowsPick,
-    );
+    const bar = h("div", { class: "tools bar" }, this.playButton, this.turnButton, h("label", {}, this.pace, this.paceTold), this.rowsPick);
     this.root.append(h("div", { class: "head" }, this.title_, this.told), this.stage, bar);
     this.playButton.addEventListener("click", () => {
       this.wanted = !this.playing;
@@ -120,18 +113,16 @@ export class BrinellBearing extends View {
     return this.shape;
   }
   set geometry(geometry) {
-    const same =
-      geometry && this.shape && geometry.rows === this.shape.rows && geometry.elements === this.shape.elements;
+    const same = geometry && this.shape && geometry.rows === this.shape.rows && geometry.elements === this.shape.elements;
     this.shape = geometry ?? null;
     if (!same) {
       this.motion = geometry ? new Motion(geometry.rows, geometry.elements) : null;
       this.limit = new Limit();
       const rows = geometry?.rows ?? 1;
       this.rowsPick.replaceChildren(
-        ...[
-          ["both", rows > 2 ? "All rows" : "Both rows"],
-          ...Array.from({ length: rows }, (_, k) => [String(k), `Row ${k + 1}`]),
-        ].map(([value, words]) => h("option", { value }, words)),
+        ...[["both", rows > 2 ? "All rows" : "Both rows"], ...Array.from({ length: rows }, (_, k) => [String(k), `Row ${k + 1}`])].map(
+          ([value, words]) => h("option", { value }, words),
+        ),
       );
       this.rowsPick.hidden = rows < 2;
       this.which = this.rowsPick.value = "both";
@@ -251,8 +242,7 @@ export class BrinellBearing extends View {
   /** Takes newer turns once the bearing has changed and a turn and a half have been made since; for a stopped picture, once it has settled. */
   renew() {
     const { motion, playing } = this;
-    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLES + STOPPED) * motion.perTurn()))
-      return false;
+    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLES + STOPPED) * motion.perTurn())) return false;
     motion.take(playing ? undefined : STOPPED);
     this.stale = false;
     return true;
@@ -287,8 +277,7 @@ export class BrinellBearing extends View {
     const foot = paintLegend(null, 8, 0, width - 16, colours, words, damaged),
       room = height - foot - 6;
     const head = shown.length > 1 ? 15 : 0,
-      radius = (/** @type {number} */ n) =>
-        Math.min(width / n / 2 - 6, (room / Math.ceil(shown.length / n) - head) / 2 - 4);
+      radius = (/** @type {number} */ n) => Math.min(width / n / 2 - 6, (room / Math.ceil(shown.length / n) - head) / 2 - 4);
     const across = shown.length > 1 && radius(shown.length) >= radius(1) ? shown.length : 1,
       [w, h] = [width / across, room / Math.ceil(shown.length / across)];
     const reach = radius(across),
@@ -313,9 +302,7 @@ export class BrinellBearing extends View {
   sentence() {
     const shape = this.shape;
     if (!shape) return "Bearing: waiting for the run";
-    const where = this.marks.map(
-      (d) => `${d.on.replace("-", " ")}, row ${d.row}, at ${short(d.center_deg, 4)} degrees`,
-    );
+    const where = this.marks.map((d) => `${d.on.replace("-", " ")}, row ${d.row}, at ${short(d.center_deg, 4)} degrees`);
     return `Bearing from its face: ${shape.rows} ${shape.rows > 1 ? "rows" : "row"} of ${shape.elements} ${shape.element}s, load towards ${short(this.towards, 4)} degrees. ${where.length ? `Damage: ${where.join("; ")}.` : "No damage."}`;
   }
   describe() {

@@ -64,17 +64,9 @@ export class BrinellCurve extends PlotView {
     this.entitled = "";
     this.name = h("span", { class: "title" });
     this.keys = h("span", { class: "tools" });
-    this.scaleButton = h(
-      "button",
-      { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" },
-      "dB",
-    );
+    this.scaleButton = h("button", { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" }, "dB");
     this.allButton = h("button", { type: "button", title: "Everything that there is" }, "All");
-    this.resetButton = h(
-      "button",
-      { type: "button", title: "Back to the first view (key 0, double click)", hidden: true },
-      "Reset",
-    );
+    this.resetButton = h("button", { type: "button", title: "Back to the first view (key 0, double click)", hidden: true }, "Reset");
     /** Shades what is drawn over, to be zoomed to. */
     this.shaded = h("div", { class: "select", hidden: true });
     this.over = h("div", { class: "over" }, this.shaded);
@@ -117,8 +109,7 @@ export class BrinellCurve extends PlotView {
     const usable = data && data.values?.length > 1 && data.dx > 0 ? data : null;
     this.held = usable;
     // Another spacing is another axis: what was zoomed stays only where it still fits. All of a record is no part of the live window after it.
-    if (usable && this.zoomed && (this.zoomed[0] >= this.full()[1] || (this.all && usable.settled === undefined)))
-      this.zoomed = null;
+    if (usable && this.zoomed && (this.zoomed[0] >= this.full()[1] || (this.all && usable.settled === undefined))) this.zoomed = null;
     this.requestDraw();
   }
 
@@ -216,8 +207,7 @@ export class BrinellCurve extends PlotView {
     if (xTicks.length) xTicks[xTicks.length - 1][1] += ` ${unit}`;
     let yTicks = ticks(least, top, Math.max(2, Math.min(6, tall / 28)));
     // Both ends of a symmetric axis are told.
-    if (least === -top && !(yTicks[yTicks.length - 1]?.[0] > 0.6 * top))
-      yTicks = [-top, 0, top].map((v) => [v, short(v)]);
+    if (least === -top && !(yTicks[yTicks.length - 1]?.[0] > 0.6 * top)) yTicks = [-top, 0, top].map((v) => [v, short(v)]);
     return { x: this.view, y: this.range, xTicks, yTicks };
   }
   /** Unit of the x axis and how many of it are in one s or Hz. @param {CurveData} data @returns {[string, number]} */
@@ -236,13 +226,7 @@ export class BrinellCurve extends PlotView {
       frame = this.frame();
     if (!room) return;
     if (data) {
-      paintAxes(
-        room.pen,
-        frame,
-        this.axes(data, frame.width, frame.height),
-        this.colours,
-        (px) => Math.round(px - 0.5) + 0.5,
-      );
+      paintAxes(room.pen, frame, this.axes(data, frame.width, frame.height), this.colours, (px) => Math.round(px - 0.5) + 0.5);
       this.paint(room.pen, frame, this.colours);
       this.redraws.count++;
       this.redraws.ms += performance.now() - begun;
@@ -388,8 +372,7 @@ export class BrinellCurve extends PlotView {
   words(data, x, index) {
     const unit = spelled(data.unit),
       wave = this.kind === "waveform",
-      value = (/** @type {number} */ v) =>
-        `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
+      value = (/** @type {number} */ v) => `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
     const other = (/** @type {Curve | null | undefined} */ curve, /** @type {string} */ name) =>
       curve?.values?.length ? ` · ${name} ${short(curve.values[this.sample(curve, x)], 3)}` : "";
     const near = wave ? "" : this.near(data, x);
@@ -499,8 +482,7 @@ export class BrinellCurve extends PlotView {
         const per = (pinch[1] - pinch[0]) / (b - a),
           from = pinch[0] - a * per;
         this.zoom([from, from + width() * per]);
-      } else if (start !== null && Math.abs(px(event) - start) > 4)
-        this.shade([start, Math.min(Math.max(px(event), 0), width())]);
+      } else if (start !== null && Math.abs(px(event) - start) > 4) this.shade([start, Math.min(Math.max(px(event), 0), width())]);
       if (!pinch) this.point(at(px(event)), SNAP);
     });
     const lift = (/** @type {PointerEvent} */ event) => {
@@ -525,8 +507,7 @@ export class BrinellCurve extends PlotView {
       "wheel",
       (event) => {
         const [from, to] = this.shown();
-        if (event.ctrlKey || event.metaKey)
-          this.zoomAround(Math.exp(Math.max(-1, Math.min(1, event.deltaY * 0.004))), at(px(event)));
+        if (event.ctrlKey || event.metaKey) this.zoomAround(Math.exp(Math.max(-1, Math.min(1, event.deltaY * 0.004))), at(px(event)));
         else if (this.zoomed && Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
           const by = ((to - from) * event.deltaX) / width();
           this.zoom([from + by, to + by]);
@@ -579,11 +560,7 @@ export class BrinellCurve extends PlotView {
       fill(
         this.table,
         [wave ? "t, ms" : "Hz", `value, ${unit}`, ...heads],
-        xs.map((x) => [
-          wave ? short(1000 * x, 6) : short(x, 5),
-          read(data, x),
-          ...others.map(([, curve]) => read(curve, x)),
-        ]),
+        xs.map((x) => [wave ? short(1000 * x, 6) : short(x, 5), read(data, x), ...others.map(([, curve]) => read(curve, x))]),
       );
       return;
     }

@@ -34,8 +34,7 @@ export function arcs(damage, geometry) {
     let from = -1;
     for (let c = 0; c <= grid.columns; c++) {
       let deep = false;
-      for (let r = 0; c < grid.columns && r < grid.rows && !deep; r++)
-        deep = grid.depth_um[r * grid.columns + c] > LEAST * deepest;
+      for (let r = 0; c < grid.columns && r < grid.rows && !deep; r++) deep = grid.depth_um[r * grid.columns + c] > LEAST * deepest;
       if (deep && from < 0) from = c;
       if (!deep && from >= 0) {
         spans.push([grid.s0_mm + (from - 0.5) * grid.ds_mm, grid.s0_mm + (c - 0.5) * grid.ds_mm]);

@@ -50,12 +50,7 @@ export class Motion {
   /** Takes frames in. @param {Frames} frames */
   push(frames) {
     // An answer about another bearing may still arrive.
-    if (
-      frames.count < 1 ||
-      frames.rows.length !== this.rows ||
-      frames.rows[0].orbit.length !== frames.count * this.elements
-    )
-      return;
+    if (frames.count < 1 || frames.rows.length !== this.rows || frames.rows[0].orbit.length !== frames.count * this.elements) return;
     if (this.dt && Math.abs(frames.dt - this.dt) > 1e-6 * this.dt) this.length = this.fresh = 0;
     this.dt = frames.dt;
     const n = this.elements,
@@ -147,9 +142,7 @@ export class Motion {
     const pocket = TAU / this.elements,
       row = this.state.rows[0];
     const cage = this.buffer[base + 2] - row.cage;
-    return (
-      Math.abs(wrap(this.buffer[base] - this.state.ring)) + 2 * Math.abs(cage - pocket * Math.round(cage / pocket))
-    );
+    return Math.abs(wrap(this.buffer[base] - this.state.ring)) + 2 * Math.abs(cage - pocket * Math.round(cage / pocket));
   }
   /** Goes on by this much simulated time, s. @param {number} time */
   go(time) {

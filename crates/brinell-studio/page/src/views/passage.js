@@ -27,12 +27,8 @@ export class BrinellPassage extends PlotView {
     /** @type {number | null} Index of the cursor. */
     this.index = null;
     this.root.prepend(h("div", { class: "head" }, h("span", { class: "title" }, "One roller's passage")));
-    this.box.addEventListener("pointermove", (event) =>
-      this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)),
-    );
-    this.box.addEventListener("pointerdown", (event) =>
-      this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)),
-    );
+    this.box.addEventListener("pointermove", (event) => this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)));
+    this.box.addEventListener("pointerdown", (event) => this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)));
     this.box.addEventListener("pointerleave", () => {
       if (this.root.activeElement !== this.box) this.point(null);
     });

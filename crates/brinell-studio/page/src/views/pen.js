@@ -184,9 +184,6 @@ export function png(width, height, ground, paint) {
   pen.fillRect(0, 0, width, height);
   paint(pen);
   return new Promise((done, fail) =>
-    canvas.toBlob(
-      (blob) => (blob ? done(blob) : fail(new Error("the picture could not be written as PNG"))),
-      "image/png",
-    ),
+    canvas.toBlob((blob) => (blob ? done(blob) : fail(new Error("the picture could not be written as PNG"))), "image/png"),
   );
 }

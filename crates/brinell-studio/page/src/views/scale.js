@@ -11,10 +11,7 @@ export function ticks(lo, hi, target) {
   const list = [];
   for (let i = Math.ceil(lo / step - 1e-9); i <= Math.floor(hi / step + 1e-9); i++) {
     const v = i * step;
-    list.push([
-      v,
-      (i === 0 ? "0" : Math.abs(v) >= 1e6 || step < 1e-6 ? v.toExponential(2) : v.toFixed(decimals)).replace(/-/g, "−"),
-    ]);
+    list.push([v, (i === 0 ? "0" : Math.abs(v) >= 1e6 || step < 1e-6 ? v.toExponential(2) : v.toFixed(decimals)).replace(/-/g, "−")]);
   }
   return list;
 }

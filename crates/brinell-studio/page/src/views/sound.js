@@ -91,8 +91,7 @@ export class BrinellSound extends View {
   }
   level() {
     // A squared slider is nearer to what is heard as half as loud.
-    if (this.volume && this.context)
-      this.volume.gain.setTargetAtTime(Number(this.slider.value) ** 2, this.context.currentTime, 0.015);
+    if (this.volume && this.context) this.volume.gain.setTargetAtTime(Number(this.slider.value) ** 2, this.context.currentTime, 0.015);
     this.slider.setAttribute("aria-valuetext", `${Math.round(100 * Number(this.slider.value))} %`);
   }
   /** The newest loop takes over from the one that sounds; while one gives way, the next waits. */

@@ -54,8 +54,7 @@ export const DARK = {
 const NAMES = /** @type {(keyof Colours)[]} */ (Object.keys(LIGHT));
 
 /** Properties with an underscore are the ones used inside. */
-const rules = (/** @type {Colours} */ colours) =>
-  NAMES.map((name) => `--_${name}: var(--${name}, ${colours[name]});`).join(" ");
+const rules = (/** @type {Colours} */ colours) => NAMES.map((name) => `--_${name}: var(--${name}, ${colours[name]});`).join(" ");
 
 const CSS = `
 :host { ${rules(LIGHT)} display: block; position: relative; color: var(--_text); font: 13px/1.45 Inter, system-ui, "Helvetica Neue", Arial, sans-serif; }

@@ -14,10 +14,7 @@ export const decibel = (v) => 20 * Math.log10(Math.max(v, 1e-30));
 /** First and last index of a curve that a view needs, with one beyond each end. @param {Curve} curve @param {[number, number]} view */
 export function part(curve, view) {
   const last = curve.values.length - 1;
-  return [
-    Math.max(0, Math.floor((view[0] - curve.x0) / curve.dx)),
-    Math.min(last, Math.ceil((view[1] - curve.x0) / curve.dx)),
-  ];
+  return [Math.max(0, Math.floor((view[0] - curve.x0) / curve.dx)), Math.min(last, Math.ceil((view[1] - curve.x0) / curve.dx))];
 }
 
 /**
