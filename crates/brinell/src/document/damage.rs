@@ -1,12 +1,13 @@
 //! Every key of a `[[defects]]` entry and of its shape.
 
+use super::damage_files;
 use super::enum_strings::SurfaceWord;
 use super::keys::Fallback::{Needed, Required};
 use super::keys::{Keys, PAPER, Variant, assumed, derived, stated};
 use super::spec::{Spec, key};
-use super::unset::NONE;
-use super::{damage_files, unset};
 use crate::scenario::*;
+
+const NONE: f64 = f64::NAN;
 
 /// Name, pattern, one without values, meaning.
 macro_rules! shapes {
@@ -17,7 +18,7 @@ macro_rules! shapes {
 
 /// The shapes of a defect.
 const SHAPES: &[Variant<Shape>] = shapes! {
-    "rectangle": Shape::Rectangle { .. }, unset::rectangle(), "as wide all along";
+    "rectangle": Shape::Rectangle { .. }, Shape::unset(), "as wide all along";
     "circle": Shape::Circle { .. }, Shape::Circle { diameter_mm: NONE }, "a round pit";
     "profile": Shape::Profile { .. }, Shape::Profile { arc_mm: Vec::new(), width_mm: Vec::new(), depth_um: None },
         "points joined by lines; where arc_mm repeats, it jumps";
@@ -25,7 +26,7 @@ const SHAPES: &[Variant<Shape>] = shapes! {
         "the paper's irregular spall, 7 mm long";
     "outline": Shape::Outline { .. }, Shape::Outline { polygons_mm: Vec::new() },
         "polygons seen from above; a polygon within another is a hole";
-    "depth_map": Shape::DepthMap { .. } | Shape::Scan(_), Shape::DepthMap { grid: unset::grid() },
+    "depth_map": Shape::DepthMap { .. } | Shape::Scan(_), Shape::DepthMap { grid: DepthGrid::unset() },
         "depths on a grid, bilinear between its nodes (the law ecl takes each damaged node as wide as dz): in a file, or \
          written out";
     "grown": Shape::Grown { .. }, Shape::Grown { outline: Vec::new(), max_width_mm: None, area_mm2: None },
@@ -162,7 +163,7 @@ const MOST_NODES: f64 = 20_000.0;
 fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
     let (mut file, mut g, mut scan) = match shape {
         Shape::DepthMap { grid } => (None, grid.clone(), ScanFile::default()),
-        Shape::Scan(scan) => (Some(scan.file.clone()), unset::grid(), scan.clone()),
+        Shape::Scan(scan) => (Some(scan.file.clone()), DepthGrid::unset(), scan.clone()),
         _ => return,
     };
     k.optional(

@@ -2,7 +2,8 @@
 
 use super::provenance::SECTION;
 use super::schema::schema_of;
-use super::{sections, unset};
+use super::sections;
+use crate::scenario::{Scenario, Unset};
 use serde_json::Value as Json;
 use std::sync::LazyLock;
 
@@ -11,7 +12,7 @@ pub(crate) fn known_keys() -> &'static [(String, String)] {
     static KEYS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
         // The keys of its entries are no hint for anything else.
         let mut keys = vec![(String::new(), SECTION.to_owned())];
-        let listed = schema_of("", "", |walk| sections::scenario(walk, &mut unset::scenario()));
+        let listed = schema_of("", "", |walk| sections::scenario(walk, &mut Scenario::unset()));
         collect("", &listed, &mut keys);
         keys
     });

@@ -9,8 +9,8 @@ use super::reader::Reader;
 use super::spec::unit_of;
 use super::tree::{LeftOut, Tree};
 use super::writer::{Style, Writer};
-use super::{recorded, sections, source, toml_text, unset};
-use crate::scenario::{Scenario, Shape};
+use super::{recorded, sections, source, toml_text};
+use crate::scenario::{Scenario, Shape, Unset};
 
 /// A scenario that can run, and where its values come from.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Pr
 
 /// The tree of a text, or of a scenario, which has none.
 fn read_tree(text: &str, root: &source::Table) -> Result<Loaded, Vec<Problem>> {
-    let mut scenario = unset::scenario();
+    let mut scenario = Scenario::unset();
     let mut reader = Reader::new(text, root);
     reader.read_recorded();
     sections::scenario(&mut reader, &mut scenario);

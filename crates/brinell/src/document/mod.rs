@@ -36,7 +36,6 @@ mod speed_value;
 mod table_value;
 mod toml_text;
 mod tree;
-mod unset;
 mod value_type;
 mod waviness_value;
 mod writer;

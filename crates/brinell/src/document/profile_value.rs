@@ -13,10 +13,6 @@ const DROP: Spec = key("drop_um", "p at each z").from(0.0);
 const ALLOWED: &str = "\"straight\", \"logarithmic\", { crowned_radius_mm = R }, { z_mm = [..], drop_um = [..] }";
 
 impl ValueType for RollerProfile {
-    fn blank() -> Self {
-        Self::Straight
-    }
-
     fn expected(_: &Spec) -> String {
         format!("one of {ALLOWED}")
     }

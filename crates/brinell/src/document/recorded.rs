@@ -116,10 +116,6 @@ fn exists(key: &str) -> Result<(), Misfit> {
 }
 
 impl ValueType for Vec<Assumed> {
-    fn blank() -> Self {
-        Vec::new()
-    }
-
     fn expected(_: &Spec) -> String {
         "a list of tables { key = ..., value = ..., reason = ... }".into()
     }

@@ -1,5 +1,6 @@
 //! `image.scale_bar`: a length in a picture.
 
+use crate::scenario::Unset;
 use serde_json::Value as Json;
 
 use super::source::{Node, Value};
@@ -24,11 +25,13 @@ const PX: Spec = key("px", "its length in the picture").above(0.0).to(1e5).unit(
 const MM: Spec = key("mm", "its length").above(0.0).to(1e4).unit("mm");
 const ALLOWED: &str = "{ px = 412, mm = 5 }";
 
-impl ValueType for ScaleBar {
-    fn blank() -> Self {
+impl Unset for ScaleBar {
+    fn unset() -> Self {
         Self { px: f64::NAN, mm: f64::NAN }
     }
+}
 
+impl ValueType for ScaleBar {
     fn expected(_: &Spec) -> String {
         format!("a table such as {ALLOWED}")
     }

@@ -10,7 +10,6 @@ use super::keys::Fallback::{self, Required};
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::sensor::sensor;
 use super::spec::key;
-use super::unset;
 use crate::scenario::*;
 use crate::signal::rounded;
 
@@ -50,7 +49,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         support(k, (laws, model, &s.bearing, &s.operation), masses, &mut s.support)
     });
     let load = s.operation.load_n;
-    k.tables(key("defects", "damage: none, one or many"), &mut s.defects, unset::defect, |k, d| defect(k, load, d));
+    k.tables(key("defects", "damage: none, one or many"), &mut s.defects, Defect::unset, |k, d| defect(k, load, d));
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
         sensor(k, &mut s.sensor)
     });

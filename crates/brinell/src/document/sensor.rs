@@ -2,8 +2,7 @@
 
 use super::keys::{Keys, assumed, stated};
 use super::spec::key;
-use super::unset;
-use crate::scenario::{NoiseColour, PathMode, Sensor};
+use crate::scenario::{NoiseColour, PathMode, Sensor, Unset};
 
 /// Largest share of critical damping; a mode beyond is no resonance, and its equations here need one below 1.
 const MOST_DAMPED: f64 = 0.95;
@@ -37,7 +36,7 @@ pub(super) fn sensor<K: Keys>(k: &mut K, s: &mut Sensor) {
     k.optional(key("converter_bits", "whole steps: 2^bits of them").from(2.0).to(32.0), &mut s.converter_bits);
     k.optional(key("converter_range_m_per_s2", "its ends, plus and minus").above(0.0), &mut s.converter_range_m_per_s2);
     k.optional(key("converter_range_mv", "the same as a voltage").above(0.0), &mut s.converter_range_mv);
-    k.tables(key("path", "modes of the structure between ring and sensor"), &mut s.path, unset::path_mode, path_mode);
+    k.tables(key("path", "modes of the structure between ring and sensor"), &mut s.path, PathMode::unset, path_mode);
     // A key without a meaning holds nothing, so that a scenario equals the one it reads back to.
     let silent = s.noise_rms_m_per_s2.is_none() && s.noise_snr_db.is_none();
     if !mounted {

@@ -7,10 +7,6 @@ use super::spec::Spec;
 use super::value_type::{Listed, Misfit, ValueType, in_unit, wrong_type};
 
 impl ValueType for u64 {
-    fn blank() -> u64 {
-        0
-    }
-
     fn expected(spec: &Spec) -> String {
         in_unit("a whole number, 0 or more", spec)
     }

@@ -12,10 +12,6 @@ use crate::scenario::Speed;
 const TIME: Spec = key("t_s", "time");
 
 impl ValueType for Speed {
-    fn blank() -> Speed {
-        Speed::Constant(f64::NAN)
-    }
-
     fn expected(spec: &Spec) -> String {
         format!("{} or a list of points [t in s, speed in {}]", f64::expected(spec), spec.unit)
     }

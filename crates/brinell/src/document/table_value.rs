@@ -14,10 +14,6 @@ const ENERGY: Spec = key("energy_j", "E, in place of delta_eff");
 const ALLOWED: &str = "\"FILE\", { s_mm = [..], delta_um = [..], delta_eff_um = [..] }, the same with energy_j = [..] in place of delta_eff_um";
 
 impl ValueType for DefectTable {
-    fn blank() -> Self {
-        Self::File(String::new())
-    }
-
     fn expected(_: &Spec) -> String {
         format!("one of {ALLOWED}")
     }

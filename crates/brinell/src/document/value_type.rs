@@ -1,7 +1,7 @@
 //! Kinds of value that a key can hold: how each is read, written and described.
 
 use crate::did_you_mean::{did_you_mean, left_out, other_word};
-use crate::scenario::Choice;
+use crate::scenario::{Choice, Unset};
 use serde_json::{Value as Json, json};
 
 use super::quantity;
@@ -45,9 +45,7 @@ impl Misfit {
 }
 
 /// The value of one key.
-pub trait ValueType: Sized + Clone {
-    /// Stands in for a value that could not be read; no check objects to it.
-    fn blank() -> Self;
+pub trait ValueType: Sized + Clone + Unset {
     /// What the key expects, with its article.
     fn expected(spec: &Spec) -> String;
     /// The value of a node.
@@ -145,10 +143,6 @@ fn out_of_range(x: f64, spec: &Spec) -> Misfit {
 }
 
 impl ValueType for f64 {
-    fn blank() -> f64 {
-        f64::NAN
-    }
-
     fn expected(spec: &Spec) -> String {
         in_unit("a number", spec)
     }
@@ -197,10 +191,6 @@ impl ValueType for f64 {
 }
 
 impl ValueType for usize {
-    fn blank() -> usize {
-        0
-    }
-
     fn expected(spec: &Spec) -> String {
         in_unit("a whole number", spec)
     }
@@ -234,10 +224,6 @@ impl ValueType for usize {
 }
 
 impl ValueType for bool {
-    fn blank() -> bool {
-        false
-    }
-
     fn expected(_: &Spec) -> String {
         "true or false".into()
     }
@@ -263,10 +249,6 @@ impl ValueType for bool {
 }
 
 impl ValueType for String {
-    fn blank() -> String {
-        String::new()
-    }
-
     fn expected(_: &Spec) -> String {
         "a string in quotes".into()
     }
@@ -321,10 +303,6 @@ impl Listed for String {
 }
 
 impl<T: Listed> ValueType for Vec<T> {
-    fn blank() -> Vec<T> {
-        Vec::new()
-    }
-
     fn expected(spec: &Spec) -> String {
         in_unit(T::LIST, spec)
     }
@@ -356,10 +334,6 @@ impl<T: Listed> ValueType for Vec<T> {
 }
 
 impl<const N: usize> ValueType for [f64; N] {
-    fn blank() -> Self {
-        [f64::NAN; N]
-    }
-
     fn expected(spec: &Spec) -> String {
         match N {
             2 => in_unit("a list [x, y] of two numbers", spec),
@@ -396,10 +370,6 @@ fn word_list<T: Choice>() -> String {
 }
 
 impl<T: Choice> ValueType for T {
-    fn blank() -> T {
-        T::WORDS[0].1
-    }
-
     fn expected(_: &Spec) -> String {
         match T::WORDS {
             [(word, ..)] => quote(word),

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
 use super::value_type::{Misfit, ValueType, each, read_under, wrong_type};
-use crate::scenario::Waviness;
+use crate::scenario::{Unset, Waviness};
 
 const AMPLITUDE: Spec = key("amplitude_um", "A_1").from(0.0).to(1000.0);
 const EXPONENT: Spec = key("exponent", "q of A_k = A_1 k^-q").from(0.0).to(10.0);
@@ -35,11 +35,13 @@ fn waves(node: &Node) -> Result<[usize; 2], Misfit> {
     Ok([first, last])
 }
 
-impl ValueType for Waviness {
-    fn blank() -> Self {
+impl Unset for Waviness {
+    fn unset() -> Self {
         Self { amplitude_um: f64::NAN, exponent: USUAL_EXPONENT, waves: USUAL_WAVES }
     }
+}
 
+impl ValueType for Waviness {
     fn expected(_: &Spec) -> String {
         format!("a table such as {ALLOWED}")
     }

@@ -2,6 +2,7 @@
 
 use super::choices::*;
 use super::table::TableData;
+use super::unset::{sections, unset};
 
 /// Where a defect lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -233,23 +234,24 @@ impl Default for ScanFile {
     }
 }
 
-/// Depths at the nodes of a rectangular grid, bilinear between them, 0 beyond its border.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DepthGrid {
-    /// s of the first column, mm.
-    pub s0_mm: f64,
-    /// z of the first row, mm.
-    pub z0_mm: f64,
-    /// Distance of columns, mm.
-    pub ds_mm: f64,
-    /// Distance of rows, mm.
-    pub dz_mm: f64,
-    /// Nodes along s.
-    pub columns: usize,
-    /// Nodes along z.
-    pub rows: usize,
-    /// `depth_um[row * columns + column]` at (s0 + column ds, z0 + row dz), um; 0 is undamaged, negative a raised edge.
-    pub depth_um: Vec<f64>,
+sections! {
+    /// Depths at the nodes of a rectangular grid, bilinear between them, 0 beyond its border.
+    pub struct DepthGrid {
+        /// s of the first column, mm.
+        pub s0_mm: f64,
+        /// z of the first row, mm.
+        pub z0_mm: f64,
+        /// Distance of columns, mm.
+        pub ds_mm: f64,
+        /// Distance of rows, mm.
+        pub dz_mm: f64,
+        /// Nodes along s.
+        pub columns: usize,
+        /// Nodes along z.
+        pub rows: usize,
+        /// `depth_um[row * columns + column]` at (s0 + column ds, z0 + row dz), um; 0 is undamaged, negative a raised edge.
+        pub depth_um: Vec<f64>,
+    }
 }
 
 impl DepthGrid {
@@ -280,23 +282,24 @@ impl DepthGrid {
     }
 }
 
-/// One `[[defects]]` entry.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Defect {
-    /// Damaged surface.
-    pub on: Surface,
-    /// Row, from 1.
-    pub row: usize,
-    /// psi, degrees.
-    pub center_deg: f64,
-    /// h, um; the depths of a profile or a depth map override it.
-    pub depth_um: f64,
-    /// Moves the shape along +Z, mm; 0: z = 0 of the shape is the middle of the row.
-    pub axial_offset_mm: f64,
-    /// Outline.
-    pub shape: Shape,
-    /// delta_eff(s, delta) from elsewhere, in place of what the engine finds for the shape; `half-space` only.
-    pub table: Option<DefectTable>,
+sections! {
+    /// One `[[defects]]` entry.
+    pub struct Defect {
+        /// Damaged surface.
+        pub on: Surface,
+        /// Row, from 1.
+        pub row: usize,
+        /// psi, degrees.
+        pub center_deg: f64,
+        /// h, um; the depths of a profile or a depth map override it.
+        pub depth_um: f64,
+        /// Moves the shape along +Z, mm; 0: z = 0 of the shape is the middle of the row.
+        pub axial_offset_mm: f64,
+        /// Outline.
+        pub shape: Shape,
+        /// delta_eff(s, delta) from elsewhere, in place of what the engine finds for the shape; `half-space` only.
+        pub table: Option<DefectTable>,
+    }
 }
 
 impl Defect {
@@ -317,4 +320,10 @@ pub enum DefectTable {
     File(String),
     /// The table.
     Read(TableData),
+}
+
+unset! {
+    DefectTable: Self::File(String::new());
+    Shape: Self::Rectangle { length_mm: f64::NAN, width_mm: f64::NAN };
+    Surface: Self::OuterRaceway;
 }

@@ -1,16 +1,18 @@
 //! `[sensor]`: what is between the outer ring and the record.
 
 use super::choices::NoiseColour;
+use super::unset::{sections, unset};
 
-/// One mode of the structure between ring and sensor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PathMode {
-    /// Undamped natural frequency, Hz.
-    pub frequency_hz: f64,
-    /// Share of critical damping.
-    pub damping_ratio: f64,
-    /// Participation at the sensor: 1 and one mode is a mass on a spring; negative moves against the ring.
-    pub gain: f64,
+sections! {
+    /// One mode of the structure between ring and sensor.
+    pub struct PathMode {
+        /// Undamped natural frequency, Hz.
+        pub frequency_hz: f64,
+        /// Share of critical damping.
+        pub damping_ratio: f64,
+        /// Participation at the sensor: 1 and one mode is a mass on a spring; negative moves against the ring.
+        pub gain: f64,
+    }
 }
 
 /// `[sensor]`: what is between the outer ring's acceleration and the record. What is not given is not there.
@@ -122,4 +124,8 @@ impl Sensor {
         let volts = self.converter_range_mv.map(Range::Voltage);
         self.converter_bits.zip(self.converter_range_m_per_s2.map(Range::Acceleration).or(volts))
     }
+}
+
+unset! {
+    Sensor: Self::off();
 }

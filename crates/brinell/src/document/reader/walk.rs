@@ -20,20 +20,20 @@ impl Keys for Reader<'_> {
             None if matches!(fallback, Fallback::Instead { .. }) => self.fall_back(path, &spec, fallback),
             None => self.catalogued(&path, &spec).or_else(|| self.fall_back(path, &spec, fallback)),
         };
-        *value = read.unwrap_or_else(T::blank);
+        *value = read.unwrap_or_else(T::unset);
     }
 
     fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
         let (path, entry) = self.name(&spec);
-        *value = entry.map(|entry| self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank));
+        *value = entry.map(|entry| self.read(&path, &spec, &entry.node).unwrap_or_else(T::unset));
     }
 
     fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         let (path, entry) = self.name(&spec);
-        *value = T::blank();
+        *value = T::unset();
         match entry {
             Some(entry) if wanted => {
-                *value = self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank);
+                *value = self.read(&path, &spec, &entry.node).unwrap_or_else(T::unset);
             }
             Some(entry) => {
                 let problem =
@@ -67,7 +67,7 @@ impl Keys for Reader<'_> {
             return self.key(spec, fallback, value);
         }
         let (path, entry) = self.name(&spec);
-        *value = fallback.value().unwrap_or_else(T::blank);
+        *value = fallback.value().unwrap_or_else(T::unset);
         if let Some(entry) = entry {
             match T::read(&entry.node, &spec) {
                 Ok(_) => {
