@@ -92,13 +92,18 @@ impl DataColumn {
 type Fixed = (&'static str, &'static str, &'static str, Source);
 
 /// Place of `status` in a row.
-pub(crate) const STATUS: usize = 2;
+const STATUS: usize = 2;
 /// Column of a run's class, as a number.
 pub(crate) const LABEL: &str = "label";
 /// Column of a run's clipped samples.
 pub(crate) const CLIPPED: &str = "clipped_samples";
 /// Column of what a run's result warns of.
 pub(crate) const WARNINGS: &str = "warnings";
+
+/// Whether a row's file of its own says that the run failed.
+pub(crate) fn is_failed(cells: &[Cell]) -> bool {
+    cells.get(STATUS) == Some(&Cell::Words("failed".into()))
+}
 
 /// Before the signals: what a run is.
 #[rustfmt::skip]

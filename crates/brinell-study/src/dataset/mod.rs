@@ -24,7 +24,6 @@ mod folder;
 mod merge;
 mod part;
 mod refusal;
-mod row;
 mod run;
 mod sheet;
 mod sidecar;

@@ -2,10 +2,9 @@
 
 use crate::campaign::kernel;
 use crate::dataset::campaign::Campaign;
-use crate::dataset::columns::DataColumn;
+use crate::dataset::columns::{DataColumn, is_failed};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY, facts_of};
-use crate::dataset::row::is_failed;
 use crate::dataset::tally::{Places, Tally};
 use crate::design::Part;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};

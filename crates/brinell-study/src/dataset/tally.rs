@@ -1,7 +1,6 @@
 //! How many runs of each class failed, are clipped, hold a signal that does not change, or have a result with warnings.
 
-use crate::dataset::columns::{CLIPPED, LABEL, WARNINGS};
-use crate::dataset::row::is_failed;
+use crate::dataset::columns::{CLIPPED, LABEL, WARNINGS, is_failed};
 use brinell_io::{Cell, Kind, RecordColumn};
 use serde_json::{Value, json};
 
