@@ -4,8 +4,8 @@
 
 use brinell::{Scenario, document};
 use brinell_study::campaign::{Axis, Plan, columns, run_all};
+use brinell_study::listener::Silent;
 use std::error::Error;
-use std::ops::ControlFlow;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1);
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenarios: Vec<Scenario> = scenarios.collect::<Result<_, brinell::Error>>()?;
 
     let threads = brinell::many::threads(scenarios.len());
-    let results = run_all(&scenarios, threads, |_, _| ControlFlow::Continue(()));
+    let results = run_all(&scenarios, threads, &Silent);
     // A run that failed has a row without numbers.
     let numbers: Vec<_> = results.iter().map(|result| result.as_ref().map_or(Vec::new(), |r| r.quantities())).collect();
     let rows: Vec<_> = numbers.iter().map(Vec::as_slice).collect();

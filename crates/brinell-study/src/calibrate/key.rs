@@ -3,11 +3,13 @@
 use super::CalibrateError;
 use crate::campaign::{PlanError, assigned, clash, number, syntax};
 use brinell::signal::rounded;
+use serde::Serialize;
 
 /// A key and its bounds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Key {
     /// Dotted path, `bearing.radial_clearance_um`.
+    #[serde(rename = "key")]
     pub name: String,
     /// Lower bound.
     pub low: f64,

@@ -3,10 +3,11 @@
 
 use super::error::{MOST_POINTS, PlanError};
 use brinell::document::reading::text_in_unit_of;
+use serde::Serialize;
 use std::collections::HashSet;
 
 /// Settings that are tried one after the other.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Axis {
     keys: Vec<String>,
     /// Setting after setting, a value for each key: TOML, a bare word being a string; quantities as numbers in the

@@ -36,10 +36,9 @@ pub(crate) use plan::{INSIDE, clash};
 #[doc(hidden)]
 pub use row::digest;
 pub use row::{Row, fingerprint};
+pub(crate) use row::{in_json, settings_json};
 pub use run::run_all;
 #[doc(hidden)]
 pub use sides::{Differing, Side, SidesError, check_labels, differing, sides_json, sides_scenarios, sides_table};
 #[doc(hidden)]
-pub use spread::{
-    Assumed, Bar, Ends, Level, SPREAD_MEANING, Spread, assumed, levels_json, ratios, run_ends, run_spread,
-};
+pub use spread::{Assumed, Bar, Ends, Level, SPREAD_MEANING, Spread, assumed, ratios, run_ends, run_spread};

@@ -2,8 +2,9 @@
 
 use super::axis::Axis;
 use super::error::{MOST_POINTS, PlanError};
-use super::row::digest;
-use serde_json::{Value, json};
+use super::row::{digest, in_json};
+use serde::Serialize;
+use serde_json::Value;
 
 /// What is wrong with keys of which one is part of the other.
 pub(crate) const INSIDE: &str = "lie one inside the other, and would overwrite each other";
@@ -92,10 +93,14 @@ impl Plan {
     /// none of a bad one.
     #[doc(hidden)]
     pub fn header<'a>(&self, scenarios: impl Iterator<Item = Option<&'a str>>) -> Value {
-        let axis = |axis: &Axis| json!({ "keys": axis.keys(), "settings": axis.settings() });
-        let axes: Vec<Value> = self.axes.iter().map(axis).collect();
+        #[derive(Serialize)]
+        struct Head<'a> {
+            campaign: &'a str,
+            plan: &'a [Axis],
+            scenarios: String,
+        }
         let scenarios: Vec<&str> = scenarios.map(|s| s.unwrap_or("bad")).collect();
-        json!({ "campaign": "sweep", "plan": axes, "scenarios": digest(&scenarios.join(" ")) })
+        in_json(&Head { campaign: "sweep", plan: &self.axes, scenarios: digest(&scenarios.join(" ")) })
     }
 
     /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].

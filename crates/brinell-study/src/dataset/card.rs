@@ -13,6 +13,9 @@ use std::path::Path;
 const KNOWN_LICENCES: [&str; 8] =
     ["cc0-1.0", "cc-by-4.0", "cc-by-sa-4.0", "cc-by-nc-4.0", "cc-by-nc-sa-4.0", "mit", "apache-2.0", "odbl"];
 
+/// The words of the format, as its specification gives them.
+const CONTEXT: &str = include_str!("croissant.context.json");
+
 /// The file that tools read.
 pub(crate) const CROISSANT: &str = "croissant.json";
 
@@ -182,7 +185,7 @@ fn croissant(about: &Value) -> Value {
     };
     let mut all = Map::new();
     for (key, value) in [
-        ("@context", context()),
+        ("@context", serde_json::from_str(CONTEXT).unwrap_or_default()),
         ("@type", "sc:Dataset".into()),
         ("conformsTo", "http://mlcommons.org/croissant/1.0".into()),
         ("name", name.into()),
@@ -202,46 +205,4 @@ fn croissant(about: &Value) -> Value {
         }
     }
     all.into()
-}
-
-/// The words of the format, as its specification gives them.
-fn context() -> Value {
-    json!({
-        "@language": "en",
-        "@vocab": "https://schema.org/",
-        "sc": "https://schema.org/",
-        "cr": "http://mlcommons.org/croissant/",
-        "rai": "http://mlcommons.org/croissant/RAI/",
-        "dct": "http://purl.org/dc/terms/",
-        "equivalentProperty": "cr:equivalentProperty",
-        "samplingRate": "cr:samplingRate",
-        "conformsTo": "dct:conformsTo",
-        "citeAs": "cr:citeAs",
-        "column": "cr:column",
-        "data": { "@id": "cr:data", "@type": "@json" },
-        "dataType": { "@id": "cr:dataType", "@type": "@vocab" },
-        "examples": { "@id": "cr:examples", "@type": "@json" },
-        "extract": "cr:extract",
-        "field": "cr:field",
-        "fileObject": "cr:fileObject",
-        "fileProperty": "cr:fileProperty",
-        "fileSet": "cr:fileSet",
-        "format": "cr:format",
-        "includes": "cr:includes",
-        "isLiveDataset": "cr:isLiveDataset",
-        "jsonPath": "cr:jsonPath",
-        "key": "cr:key",
-        "md5": "cr:md5",
-        "parentField": "cr:parentField",
-        "path": "cr:path",
-        "recordSet": "cr:recordSet",
-        "references": "cr:references",
-        "regex": "cr:regex",
-        "repeated": "cr:repeated",
-        "replace": "cr:replace",
-        "separator": "cr:separator",
-        "source": "cr:source",
-        "subField": "cr:subField",
-        "transform": "cr:transform",
-    })
 }

@@ -1,5 +1,6 @@
 //! One run, simulated as far as it can be: what the cells of its row are read from.
 
+use crate::campaign::settings_json;
 use crate::dataset::campaign::Campaign;
 use crate::dataset::truth::{Instant, Truth};
 use crate::design::{Draw, Draws, Value, unsaid};
@@ -19,7 +20,7 @@ use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::{Cell, Column};
-use serde_json::{Map, Value as Json};
+use serde_json::Value as Json;
 
 /// What a run's cells are read from, as far as it came.
 pub(crate) struct Run<'a> {
@@ -206,8 +207,6 @@ impl Run<'_> {
 
     /// What it sets over the base scenario, as JSON.
     pub(crate) fn settings(&self) -> Option<String> {
-        let settings = self.draw.as_ref()?.settings.iter();
-        let settings: Map<String, Json> = settings.map(|(key, value)| (key.clone(), value.as_str().into())).collect();
-        Some(Json::from(settings).to_string())
+        Some(Json::from(settings_json(&self.draw.as_ref()?.settings)).to_string())
     }
 }

@@ -18,8 +18,8 @@ pub use ledger::{Kept, Ledger};
 pub use read_points::ReadPoints;
 #[doc(hidden)]
 pub use recorder::{Make, Recorder};
-pub(crate) use run::{observed, side_by_side};
 pub use run::{Beside, Task, Work, run, to_run};
+pub(crate) use run::{observed, side_by_side};
 
 use crate::campaign::other_kernel;
 use brinell_io::IoError;
