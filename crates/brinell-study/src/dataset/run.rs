@@ -130,8 +130,8 @@ pub fn run(
     summary.interrupted = flow.is_break();
     for part in parts {
         if let Some(facts) = folder.finished(part)? {
-            summary.failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
-            summary.tally.join(&facts["runs"]["tally"]);
+            summary.failed += facts.runs.failed;
+            summary.tally.join(facts.runs.tally.as_ref());
         }
     }
     summary.whole = sidecar::write(&folder)?;

@@ -1,5 +1,6 @@
 //! A few runs of each class to look at: what the contact sheet shows.
 
+use crate::dataset::about::Class;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::Folder;
 use brinell::channel::SENSOR;
@@ -7,7 +8,6 @@ use brinell::observe::envelope_band_above;
 use brinell::scenario::Operation;
 use brinell::signal::{Segments, envelope_spectrum};
 use brinell_io::{Cell, read_records};
-use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -109,11 +109,9 @@ struct Place {
 pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetError> {
     let folder = Folder::new(folder.as_ref());
     let about = match folder.described()? {
-        Value::Null => folder.about()?.ok_or_else(|| folder.no_data_set())?,
-        about => about,
+        Some((made, _)) => made.with(0, 0, None),
+        None => folder.about()?.ok_or_else(|| folder.no_data_set())?,
     };
-    let text = |value: &Value| value.as_str().unwrap_or("").to_owned();
-    let list = |key: &str| about[key].as_array().into_iter().flatten();
     let parts = folder.parts_there()?;
     if parts.is_empty() {
         return Err(DatasetError::Refused(format!(
@@ -123,16 +121,15 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
     }
     let places = places(&parts)?;
     let along = along_the_load(&parts, &places)?;
-    let signals = || list("columns").filter(|c| c["type"] == "list<float>");
-    let Some(signal) = signals().find(|c| c["name"] == along).or_else(|| signals().next()) else {
+    let signals = || about.columns.iter().filter(|c| c.is_signal());
+    let Some(signal) = signals().find(|c| c.name == along).or_else(|| signals().next()) else {
         let message = format!("{}: no column is a signal", folder.root.display());
         return Err(DatasetError::Refused(message));
     };
-    let name = text(&signal["name"]);
-    let mut classes: Vec<SheetClass> = list("classes")
-        .enumerate()
-        .map(|(label, class)| SheetClass { name: text(&class["name"]), label, runs: 0, shown: Vec::new() })
-        .collect();
+    let name = signal.name.clone();
+    let class =
+        |(label, class): (usize, &Class)| SheetClass { name: class.name.clone(), label, ..SheetClass::default() };
+    let mut classes: Vec<SheetClass> = about.classes.iter().enumerate().map(class).collect();
     let mut chosen = BTreeSet::new();
     for class in &mut classes {
         let of_class = places.iter().filter(|place| place.label == class.label);
@@ -150,13 +147,8 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
             }
         }
     }
-    Ok(Sheet {
-        name: text(&about["name"]),
-        version: text(&about["brinell"]),
-        signal: name,
-        unit: text(&signal["unit"]),
-        classes,
-    })
+    let unit = signal.unit.clone();
+    Ok(Sheet { name: about.name, version: about.brinell, signal: name, unit, classes })
 }
 
 fn places(parts: &[PathBuf]) -> Result<Vec<Place>, DatasetError> {

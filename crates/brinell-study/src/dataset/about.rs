@@ -1,0 +1,271 @@
+//! What a data set's folder says of itself: before its runs (`work/campaign.json`), of each finished file
+//! (`work/part-00000.json`), and when all files are there (`dataset.json`). What is missing in a file reads as empty.
+
+use crate::dataset::tally::Tally;
+use serde::{Deserialize, Serialize};
+
+/// A data set: `R` of its runs, `F` of its files, `H` of its held-out labels are known.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct About<R, F, H> {
+    pub(crate) name: String,
+    pub(crate) schema: String,
+    pub(crate) brinell: String,
+    /// What tells it from others.
+    pub(crate) campaign: String,
+    pub(crate) kernel: Option<String>,
+    pub(crate) licence: Option<String>,
+    pub(crate) runs: R,
+    pub(crate) runs_per_file: u64,
+    pub(crate) files: F,
+    pub(crate) splits: Vec<Split>,
+    pub(crate) classes: Vec<Class>,
+    pub(crate) design: String,
+    pub(crate) rate: Rate,
+    pub(crate) units: String,
+    pub(crate) frame: String,
+    pub(crate) columns: Vec<ColumnOf>,
+    pub(crate) geometry: Geometry,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) held_out: Option<H>,
+    /// Where labels are held out; with plan and seed anybody could make them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) secret: Option<Sources>,
+    /// Where they are not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sources: Option<Sources>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) card: Option<Sum>,
+}
+
+/// Before its runs: how many, in how many files, and whether labels are held out.
+pub(crate) type Planned = About<u64, usize, bool>;
+/// When all files are there.
+pub(crate) type Made = About<Counts, Vec<Listed>, HeldOut>;
+
+impl<R, F, H> About<R, F, H> {
+    /// The same data set, of which this is known.
+    pub(crate) fn with<R2, F2, H2>(self, runs: R2, files: F2, held_out: Option<H2>) -> About<R2, F2, H2> {
+        let Self { name, schema, brinell, campaign, kernel, licence, runs_per_file, splits, classes, .. } = self;
+        let Self { design, rate, units, frame, columns, geometry, secret, sources, card, .. } = self;
+        About {
+            name,
+            schema,
+            brinell,
+            campaign,
+            kernel,
+            licence,
+            runs,
+            runs_per_file,
+            files,
+            splits,
+            classes,
+            design,
+            rate,
+            units,
+            frame,
+            columns,
+            geometry,
+            held_out,
+            secret,
+            sources,
+            card,
+        }
+    }
+
+    /// Split and rows of each file, in order.
+    pub(crate) fn rows_of_files(&self) -> Vec<(String, u64)> {
+        let each = self.runs_per_file.max(1);
+        let of_split = |split: &Split| {
+            let (name, runs) = (split.name.clone(), split.runs);
+            (0..runs.div_ceil(each)).map(move |k| (name.clone(), each.min(runs - k * each)))
+        };
+        self.splits.iter().flat_map(of_split).collect()
+    }
+}
+
+/// Runs of a data set.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Counts {
+    pub(crate) total: u64,
+    pub(crate) complete: u64,
+    pub(crate) failed: u64,
+}
+
+/// What runs are for: how many runs and files, and, where that reveals no label, of each class those that [`Tally`]
+/// counts.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Split {
+    pub(crate) name: String,
+    pub(crate) runs: u64,
+    pub(crate) files: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) runs_of_classes: Option<Vec<u64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) failed: Option<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) failed_of_classes: Vec<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) clipped_of_classes: Vec<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) constant_of_classes: Vec<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) warned_of_classes: Vec<u64>,
+}
+
+impl Split {
+    /// Adds a finished file of it.
+    pub(crate) fn add(&mut self, facts: &Facts) {
+        *self.failed.get_or_insert(0) += facts.failed;
+        let mut tally = self.tally();
+        tally.join(facts.tally.as_ref());
+        // The plan has the runs.
+        Tally {
+            failed: self.failed_of_classes,
+            clipped: self.clipped_of_classes,
+            constant: self.constant_of_classes,
+            warned: self.warned_of_classes,
+            ..
+        } = tally;
+    }
+
+    /// What is counted of its runs.
+    pub(crate) fn tally(&self) -> Tally {
+        Tally {
+            runs: self.runs_of_classes.clone().unwrap_or_default(),
+            failed: self.failed_of_classes.clone(),
+            clipped: self.clipped_of_classes.clone(),
+            constant: self.constant_of_classes.clone(),
+            warned: self.warned_of_classes.clone(),
+        }
+    }
+}
+
+/// A class with its runs; of a data set with held-out labels with those that are open.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Class {
+    pub(crate) name: String,
+    pub(crate) label: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) open_runs: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) runs: Option<usize>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Rate {
+    pub(crate) sample_rate_hz: Option<f64>,
+    pub(crate) duration_s: Option<f64>,
+    pub(crate) meaning: String,
+}
+
+/// A column of the files.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct ColumnOf {
+    pub(crate) name: String,
+    #[serde(rename = "type")]
+    pub(crate) kind: String,
+    pub(crate) unit: String,
+    pub(crate) description: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) held_out: Option<bool>,
+}
+
+impl ColumnOf {
+    pub(crate) fn is_signal(&self) -> bool {
+        self.kind == "list<float>"
+    }
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Geometry {
+    pub(crate) meaning: String,
+    pub(crate) keys: Vec<GeometryKey>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct GeometryKey {
+    pub(crate) key: String,
+    pub(crate) value: Option<String>,
+    pub(crate) unit: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) why: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) assumed: Option<bool>,
+}
+
+/// What a data set is made from.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Sources {
+    pub(crate) plan: String,
+    pub(crate) base: String,
+    pub(crate) seed: u64,
+    pub(crate) to_repeat: String,
+    /// Of labels that are held out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) files: Option<Vec<Listed>>,
+}
+
+/// A file with its checksum.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Sum {
+    pub(crate) path: String,
+    pub(crate) sha256: String,
+}
+
+/// A file of the data set.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Listed {
+    pub(crate) path: String,
+    pub(crate) rows: u64,
+    /// Of runs; of labels how many failed is not said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) failed: Option<u64>,
+    pub(crate) bytes: u64,
+    pub(crate) sha256: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) split: Option<String>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct HeldOut {
+    pub(crate) plan: Sum,
+    pub(crate) meaning: String,
+}
+
+/// What is known of a finished file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Facts {
+    pub(crate) rows: u64,
+    #[serde(default)]
+    pub(crate) failed: u64,
+    pub(crate) bytes: u64,
+    pub(crate) sha256: String,
+    /// By class; none where labels are held out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) tally: Option<Tally>,
+}
+
+impl Facts {
+    pub(crate) fn listed(self, path: String) -> Listed {
+        Listed { path, rows: self.rows, bytes: self.bytes, sha256: self.sha256, ..Listed::default() }
+    }
+}
+
+/// The file of runs of a part, and that of labels that are held out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PartFacts {
+    pub(crate) runs: Facts,
+    pub(crate) held_out: Option<Facts>,
+}
