@@ -98,11 +98,6 @@ impl Joint {
         Progress { bar: self.bar.clone(), duration, begin: Instant::now(), skipped: 0, shared: Some(0), stop }
     }
 
-    /// Takes the bar away: no more runs come.
-    pub(crate) fn clear(&self) {
-        self.bar.finish_and_clear();
-    }
-
     /// A run of `duration` seconds was done before.
     pub(crate) fn done_before(&self, duration: f64) {
         self.ended.fetch_add(1, Ordering::Relaxed);

@@ -8,7 +8,6 @@ use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::files::{make_folder, safe_name, stem};
 use crate::inputs::Inputs;
-use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
@@ -115,10 +114,9 @@ fn run(args: &CompareArgs, sides: &[Side], stop: &AtomicBool) -> Option<Vec<RunR
     let list: Vec<_> = sides.iter().map(scenario).collect();
     let threads = brinell::many::threads(list.len());
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
-    let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
-    let listener = Terminal::new(&joint, stop, 0.0);
+    let listener = Terminal::new(list.len(), sides.iter().map(duration).sum(), args.quiet, stop);
     let results = run_all(&list, args.jobs.unwrap_or(threads), &listener);
-    drop(joint);
+    drop(listener);
     let (mut runs, mut stopped) = (Vec::new(), false);
     for (side, result) in sides.iter().zip(results) {
         match result {

@@ -4,7 +4,7 @@ use super::identify::{Direction, MOST};
 use super::plan::settings;
 use super::runs::{Runs, own_uncertainty};
 use super::target::MISSING;
-use super::{Evaluation, Fit, Key, Plan};
+use super::{Evaluation, Fit, FitPlan, Key};
 use crate::campaign::{Beforehand, in_json, of_results};
 use crate::runner::RunnerError;
 use brinell::document::Loaded;
@@ -105,7 +105,7 @@ pub struct Met {
 #[derive(Debug)]
 pub struct Outcome {
     /// What was fitted to what.
-    pub plan: Arc<Plan>,
+    pub plan: Arc<FitPlan>,
     /// The search.
     pub fit: Fit,
     /// The keys.
@@ -125,7 +125,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(plan: &Arc<Plan>, runs: &Runs, fit: Fit) -> Result<Self, RunnerError> {
+    pub(super) fn new(plan: &Arc<FitPlan>, runs: &Runs, fit: Fit) -> Result<Self, RunnerError> {
         let place = &fit.evaluations[fit.best].place;
         let row = runs.row(place).ok();
         let compared = plan.targets.iter().enumerate().map(|(t, target)| {

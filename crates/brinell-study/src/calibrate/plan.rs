@@ -15,7 +15,7 @@ const RUNS_PER_KEY: usize = 30;
 
 /// A calibration before it runs.
 #[derive(Debug)]
-pub struct Plan {
+pub struct FitPlan {
     /// What is fitted.
     pub keys: Vec<Key>,
     /// Unit of each key.
@@ -52,7 +52,7 @@ pub fn middle(keys: &[Key]) -> Vec<(String, String)> {
     settings(keys, &vec![0.5; keys.len()])
 }
 
-impl Plan {
+impl FitPlan {
     /// Of keys that may be fitted together; `middle` is the scenario of [`middle`]'s settings, and `simulation` is its.
     ///
     /// # Errors

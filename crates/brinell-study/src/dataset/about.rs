@@ -4,10 +4,10 @@
 use crate::dataset::tally::Tally;
 use serde::{Deserialize, Serialize};
 
-/// A data set: `R` of its runs, `F` of its files, `H` of its held-out labels are known.
+/// A data set: before its runs, or with its files.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct About<R, F, H> {
+pub(crate) struct About {
     pub(crate) name: String,
     pub(crate) schema: String,
     pub(crate) brinell: String,
@@ -15,9 +15,9 @@ pub(crate) struct About<R, F, H> {
     pub(crate) campaign: String,
     pub(crate) kernel: Option<String>,
     pub(crate) licence: Option<String>,
-    pub(crate) runs: R,
+    pub(crate) runs: Runs,
     pub(crate) runs_per_file: u64,
-    pub(crate) files: F,
+    pub(crate) files: Files,
     pub(crate) splits: Vec<Split>,
     pub(crate) classes: Vec<Class>,
     pub(crate) design: String,
@@ -27,7 +27,7 @@ pub(crate) struct About<R, F, H> {
     pub(crate) columns: Vec<ColumnOf>,
     pub(crate) geometry: Geometry,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) held_out: Option<H>,
+    pub(crate) held_out: Option<Held>,
     /// Where labels are held out; with plan and seed anybody could make them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) secret: Option<Sources>,
@@ -38,39 +38,50 @@ pub(crate) struct About<R, F, H> {
     pub(crate) card: Option<Sum>,
 }
 
-/// Before its runs: how many, in how many files, and whether labels are held out.
-pub(crate) type Planned = About<u64, usize, bool>;
-/// When all files are there.
-pub(crate) type Made = About<Counts, Vec<Listed>, HeldOut>;
+/// How many runs there are; and what became of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Runs {
+    #[default]
+    Unknown,
+    Planned(u64),
+    Made {
+        total: u64,
+        complete: u64,
+        failed: u64,
+    },
+}
 
-impl<R, F, H> About<R, F, H> {
-    /// The same data set, of which this is known.
-    pub(crate) fn with<R2, F2, H2>(self, runs: R2, files: F2, held_out: Option<H2>) -> About<R2, F2, H2> {
-        let Self { name, schema, brinell, campaign, kernel, licence, runs_per_file, splits, classes, .. } = self;
-        let Self { design, rate, units, frame, columns, geometry, secret, sources, card, .. } = self;
-        About {
-            name,
-            schema,
-            brinell,
-            campaign,
-            kernel,
-            licence,
-            runs,
-            runs_per_file,
-            files,
-            splits,
-            classes,
-            design,
-            rate,
-            units,
-            frame,
-            columns,
-            geometry,
-            held_out,
-            secret,
-            sources,
-            card,
+/// How many files there are; and which.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Files {
+    #[default]
+    Unknown,
+    Planned(usize),
+    Made(Vec<Listed>),
+}
+
+/// Whether labels are held out; and what they are made from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Held {
+    Planned(bool),
+    Made { plan: Sum, meaning: String },
+}
+
+impl About {
+    /// Its files, where they are there.
+    pub(crate) fn listed(&self) -> &[Listed] {
+        match &self.files {
+            Files::Made(files) => files,
+            _ => &[],
         }
+    }
+
+    /// Runs that it has altogether.
+    pub(crate) fn total(&self) -> u64 {
+        self.splits.iter().map(|split| split.runs).sum()
     }
 
     /// Split and rows of each file, in order.
@@ -82,15 +93,6 @@ impl<R, F, H> About<R, F, H> {
         };
         self.splits.iter().flat_map(of_split).collect()
     }
-}
-
-/// Runs of a data set.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub(crate) struct Counts {
-    pub(crate) total: u64,
-    pub(crate) complete: u64,
-    pub(crate) failed: u64,
 }
 
 /// What runs are for: how many runs and files, and, where that reveals no label, of each class those that [`Tally`]
@@ -235,13 +237,6 @@ pub(crate) struct Listed {
     pub(crate) sha256: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) split: Option<String>,
-}
-
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub(crate) struct HeldOut {
-    pub(crate) plan: Sum,
-    pub(crate) meaning: String,
 }
 
 /// What is known of a finished file.

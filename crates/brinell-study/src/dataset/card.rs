@@ -2,7 +2,7 @@
 //! that read MLCommons' Croissant.
 
 use crate::campaign::digest;
-use crate::dataset::about::{ColumnOf, Listed, Made, Split, Sum};
+use crate::dataset::about::{About, ColumnOf, Listed, Runs, Split, Sum};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
 use crate::dataset::tally::Tally;
@@ -23,7 +23,7 @@ pub(crate) const CROISSANT: &str = "croissant.json";
 
 /// Writes both, and gives what `dataset.json` says of the one that is nobody's to change. A README.md that is there
 /// stays: its author may have gone on with it.
-pub(crate) fn write(folder: &Path, about: &Made) -> Result<Sum, DatasetError> {
+pub(crate) fn write(folder: &Path, about: &About) -> Result<Sum, DatasetError> {
     let readme = folder.join("README.md");
     if !readme.exists() {
         put(&readme, &card(about))?;
@@ -47,9 +47,9 @@ fn split_name(split: &str) -> String {
 }
 
 /// Paths of the files of each split.
-fn paths(about: &Made) -> Vec<(String, Vec<&str>)> {
+fn paths(about: &About) -> Vec<(String, Vec<&str>)> {
     let mut splits: Vec<(String, Vec<&str>)> = Vec::new();
-    for file in &about.files {
+    for file in about.listed() {
         let split = split_name(file.split.as_deref().unwrap_or_default());
         match splits.last_mut() {
             Some((last, paths)) if *last == split => paths.push(&file.path),
@@ -59,21 +59,30 @@ fn paths(about: &Made) -> Vec<(String, Vec<&str>)> {
     splits
 }
 
-fn description(about: &Made) -> String {
+/// Runs that are complete, and failed ones.
+fn runs(about: &About) -> (u64, u64) {
+    match about.runs {
+        Runs::Made { complete, failed, .. } => (complete, failed),
+        _ => (0, 0),
+    }
+}
+
+fn description(about: &About) -> String {
     format!(
         "Vibration signals of {} runs of rolling bearings, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
          with labels and ground truth.",
-        about.runs.complete, about.brinell
+        runs(about).0,
+        about.brinell
     )
 }
 
 /// How many runs have signals, by class and by split; and what the user should know of others.
-fn counts(about: &Made) -> String {
+fn counts(about: &About) -> String {
     let mut tally = Tally::default();
     // Classes by split; of runs whose labels are held out nothing is said.
     let open: Vec<&Split> = about.splits.iter().filter(|split| split.runs_of_classes.is_some()).collect();
     open.iter().for_each(|split| tally.join(Some(&split.tally())));
-    let fails = about.runs.failed > 0;
+    let fails = runs(about).1 > 0;
     let failed = |count: u64| if fails { format!(" {count} |") } else { String::new() };
     let (head, rule) = if fails { (" failed, no signal |", " --- |") } else { ("", "") };
     let heads: String = open.iter().map(|split| format!(" {} |", split_name(&split.name))).collect();
@@ -97,9 +106,9 @@ fn counts(about: &Made) -> String {
     card
 }
 
-fn card(about: &Made) -> String {
+fn card(about: &About) -> String {
     let quoted = |text: &str| Value::from(text).to_string();
-    let size = match about.runs.total {
+    let size = match about.total() {
         0..1000 => "n<1K",
         1000..10_000 => "1K<n<10K",
         10_000..100_000 => "10K<n<100K",
@@ -141,14 +150,14 @@ fn card(about: &Made) -> String {
 }
 
 /// The data set as JSON-LD, by the Croissant format specification 1.0 (MLCommons, 2024).
-fn croissant(about: &Made) -> Value {
+fn croissant(about: &About) -> Value {
     let file = |file: &Listed| {
         json!({
             "@type": "cr:FileObject", "@id": file.path, "name": file.path, "contentUrl": file.path,
             "contentSize": format!("{} B", file.bytes), "encodingFormat": "application/x-parquet", "sha256": file.sha256,
         })
     };
-    let mut distribution: Vec<Value> = about.files.iter().map(file).collect();
+    let mut distribution: Vec<Value> = about.listed().iter().map(file).collect();
     distribution.push(json!({
         "@type": "cr:FileSet", "@id": "runs", "name": "runs", "encodingFormat": "application/x-parquet", "includes": "runs/*.parquet",
     }));

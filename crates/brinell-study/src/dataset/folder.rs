@@ -1,7 +1,7 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
 use crate::campaign::{digest, other_kernel};
-use crate::dataset::about::{ColumnOf, Facts, Made, PartFacts, Planned};
+use crate::dataset::about::{About, ColumnOf, Facts, Held, PartFacts};
 use crate::dataset::error::DatasetError;
 use brinell_io::{IoError, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde::de::DeserializeOwned;
@@ -71,11 +71,11 @@ impl Folder {
     ///
     /// # Errors
     /// Where it holds another campaign, or one of another version.
-    pub(crate) fn claim(&self, mine: &Planned) -> Result<(), DatasetError> {
+    pub(crate) fn claim(&self, mine: &About) -> Result<(), DatasetError> {
         for folder in ["runs", "work"] {
             make(&self.root.join(folder))?;
         }
-        if mine.held_out == Some(true) {
+        if mine.held_out == Some(Held::Planned(true)) {
             make(&self.root.join("held_out"))?;
         }
         // Many shards may begin at once: whoever is first writes.
@@ -99,7 +99,7 @@ impl Folder {
 
     /// `dataset.json`, and whether it is as it was written; `None` where it cannot be read, as before the data set is
     /// finished.
-    pub(crate) fn described(&self) -> Result<Option<(Made, bool)>, DatasetError> {
+    pub(crate) fn described(&self) -> Result<Option<(About, bool)>, DatasetError> {
         let path = self.sidecar();
         let Ok(bytes) = std::fs::read(&path) else {
             return Ok(None);
@@ -107,7 +107,7 @@ impl Folder {
         let mut all: Value = self.parsed(&path, &bytes)?;
         let stated = all.as_object_mut().and_then(|all| all.shift_remove(CHECKSUM));
         let is_whole = stated.is_some_and(|stated| stated["sha256"] == digest(&written(&all)));
-        let made = Made::deserialize(all).map_err(|error| self.unreadable(&path, &error))?;
+        let made = About::deserialize(all).map_err(|error| self.unreadable(&path, &error))?;
         Ok(Some((made, is_whole)))
     }
 
@@ -120,7 +120,7 @@ impl Folder {
     }
 
     /// What the folder says of its campaign; `None` where it has none yet.
-    pub(crate) fn about(&self) -> Result<Option<Planned>, DatasetError> {
+    pub(crate) fn about(&self) -> Result<Option<About>, DatasetError> {
         let path = self.campaign();
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
@@ -145,7 +145,7 @@ impl Folder {
     }
 
     /// Whether two campaigns are the same, with words for what to do where they are not.
-    pub(crate) fn same(&self, mine: &Planned, theirs: &Planned) -> Result<(), DatasetError> {
+    pub(crate) fn same(&self, mine: &About, theirs: &About) -> Result<(), DatasetError> {
         let at = self.root.display();
         let refused = |words: String| Err(DatasetError::Refused(words));
         if mine.brinell != theirs.brinell {
@@ -156,7 +156,10 @@ impl Folder {
             ));
         }
         if mine.campaign != theirs.campaign {
-            let runs = if theirs.runs > 0 { format!(" with {} runs", theirs.runs) } else { String::new() };
+            let runs = match theirs.total() {
+                0 => String::new(),
+                runs => format!(" with {runs} runs"),
+            };
             return refused(format!(
                 "{at} holds another campaign, {:?}{runs} (plan, seed, base scenario or a file of damage differ); choose another folder",
                 theirs.name
@@ -176,16 +179,16 @@ impl Folder {
     }
 
     /// Files of runs without a word on whose they are: their own metadata decides.
-    fn parts_are(&self, mine: &Planned) -> Result<(), DatasetError> {
+    fn parts_are(&self, mine: &About) -> Result<(), DatasetError> {
         for part in self.parts_there()? {
             let facts = record_facts(&part)?;
             let get = |key: &str| facts.metadata.get(key).unwrap_or("?").to_owned();
-            let theirs = Planned {
+            let theirs = About {
                 campaign: get(CAMPAIGN),
                 brinell: get(brinell_io::keys::VERSION),
                 name: get(NAME),
                 kernel: facts.metadata.get(KERNEL).map(ToOwned::to_owned),
-                ..Planned::default()
+                ..About::default()
             };
             self.same(mine, &theirs)?;
         }

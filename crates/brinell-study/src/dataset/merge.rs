@@ -69,7 +69,7 @@ pub fn merge(from: &[PathBuf], into: &Path) -> Result<Merged, DatasetError> {
         atomic_write(target.campaign(), written(&about))?;
     }
     let mut merged = Merged::default();
-    for part in 0..about.files {
+    for part in 0..about.rows_of_files().len() {
         let mut there = target.finished(part)?;
         merged.before += usize::from(there.is_some());
         for path in from {

@@ -2,7 +2,7 @@
 
 use crate::campaign::{digest, in_json, kernel};
 use crate::dataset::about::{
-    Class, ColumnOf, Counts, Geometry, GeometryKey, HeldOut, Listed, Made, Planned, Rate, Sources, Split, Sum,
+    About, Class, ColumnOf, Files, Geometry, GeometryKey, Held, Listed, Rate, Runs, Sources, Split, Sum,
 };
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
@@ -24,12 +24,12 @@ impl Campaign {
     /// # Errors
     /// Where it holds another one, or one of another version.
     pub fn claim(&self, folder: impl AsRef<Path>) -> Result<(), DatasetError> {
-        Folder::new(folder.as_ref()).claim(&planned(self))
+        Folder::new(folder.as_ref()).claim(&about(self))
     }
 }
 
 /// Everything that is known before a run: what `work/campaign.json` holds.
-fn planned(campaign: &Campaign) -> Planned {
+fn about(campaign: &Campaign) -> About {
     let plan = campaign.plan();
     let (draws, first) = (campaign.draws(), campaign.first());
     let holds_out = plan.holds_out();
@@ -65,16 +65,16 @@ fn planned(campaign: &Campaign) -> Planned {
         files: None,
     };
     let (secret, sources) = if holds_out { (Some(sources), None) } else { (None, Some(sources)) };
-    Planned {
+    About {
         name: plan.name.clone(),
         schema: SCHEMA.into(),
         brinell: brinell::VERSION.into(),
         campaign: campaign.identity().into(),
         kernel: Some(kernel().into()),
         licence: (!plan.licence.is_empty()).then(|| plan.licence.clone()),
-        runs: draws.runs() as u64,
+        runs: Runs::Planned(draws.runs() as u64),
         runs_per_file: plan.runs_per_file as u64,
-        files: campaign.parts(),
+        files: Files::Planned(campaign.parts()),
         splits: splits(campaign),
         classes: plan.classes.iter().enumerate().map(class).collect(),
         design: plan.design.word().into(),
@@ -92,7 +92,7 @@ fn planned(campaign: &Campaign) -> Planned {
                 .into(),
             keys: keys.map(|p| key(p, varies(&p.key))).collect(),
         },
-        held_out: Some(holds_out),
+        held_out: Some(Held::Planned(holds_out)),
         secret,
         sources,
         card: None,
@@ -120,7 +120,7 @@ fn key(p: &Provenance, varies: bool) -> GeometryKey {
         key: p.key.clone(),
         value: (!varies).then(|| p.value.clone()),
         unit: p.unit.into(),
-        why: (!stated).then(|| p.reason().into()),
+        why: (!stated).then(|| p.reason()),
         assumed: p.assumed.then_some(true),
     }
 }
@@ -141,49 +141,49 @@ fn type_name(kind: Kind) -> &'static str {
 /// Writes `dataset.json` where every file is there; true where it is written or was. What is there with the same
 /// content stays.
 pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
-    let Some(mut planned) = folder.about()? else {
+    let Some(mut about) = folder.about()? else {
         return Ok(false);
     };
     let (mut files, mut labels) = (Vec::new(), Vec::new());
-    for (part, (name, _)) in planned.rows_of_files().into_iter().enumerate() {
+    for (part, (name, _)) in about.rows_of_files().into_iter().enumerate() {
         let Some(facts) = folder.finished(part)? else {
             return Ok(false);
         };
-        let split = planned.splits.iter_mut().find(|split| split.name == name);
+        let split = about.splits.iter_mut().find(|split| split.name == name);
         split.into_iter().for_each(|split| split.add(&facts.runs));
         let failed = Some(facts.runs.failed);
         let path = |place: &str| format!("{place}/{}", file_name(part));
         files.push(Listed { failed, split: Some(name), ..facts.runs.listed(path("runs")) });
         labels.extend(facts.held_out.map(|facts| facts.listed(path("held_out"))));
     }
-    let mut held_out = None;
-    if let Some(mut secret) = planned.secret.take() {
+    about.held_out = None;
+    if let Some(mut secret) = about.secret.take() {
         make(&folder.root.join("held_out"))?;
         // A damaged run's labels take more bytes than a sound one's: how many would tell.
         secret.files = Some(labels);
         let text = written(&secret);
         put(&folder.secret(), &text)?;
-        held_out = Some(HeldOut {
+        about.held_out = Some(Held::Made {
             plan: Sum { path: SECRET_PATH.into(), sha256: digest(&text) },
             meaning: "labels, truth and plan of the runs with split = held-out: keep this folder to yourself, and join by the column `run`".into(),
         });
     }
-    let failed = files.iter().filter_map(|file| file.failed).sum();
-    let runs = Counts { total: planned.runs, complete: planned.runs.saturating_sub(failed), failed };
-    let mut made = planned.with(runs, files, held_out);
-    made.card = Some(card::write(&folder.root, &made)?);
-    put(&folder.sidecar(), &written(&signed(&made)))?;
+    let (total, failed) = (about.total(), files.iter().filter_map(|file| file.failed).sum());
+    about.runs = Runs::Made { total, complete: total.saturating_sub(failed), failed };
+    about.files = Files::Made(files);
+    about.card = Some(card::write(&folder.root, &about)?);
+    put(&folder.sidecar(), &written(&signed(&about)))?;
     Ok(true)
 }
 
 /// With a checksum of all the rest.
-fn signed(made: &Made) -> impl Serialize {
+fn signed(about: &About) -> impl Serialize {
     #[derive(Serialize)]
     struct Checksum {
         of: &'static str,
         sha256: String,
     }
-    let mut all = in_json(made);
-    all[CHECKSUM] = in_json(&Checksum { of: "this file without this key", sha256: digest(&written(made)) });
+    let mut all = in_json(about);
+    all[CHECKSUM] = in_json(&Checksum { of: "this file without this key", sha256: digest(&written(about)) });
     all
 }

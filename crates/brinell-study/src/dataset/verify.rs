@@ -1,7 +1,7 @@
 //! A data set's folder compared with what it says of itself.
 
 use crate::campaign::DIFFER;
-use crate::dataset::about::{Made, Planned, Sources};
+use crate::dataset::about::{About, Held, Sources};
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, PART, SECRET_PATH, file_name, number_of};
@@ -38,11 +38,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     let problems = problems.into_iter().flatten().map(ToString::to_string).collect();
     let (described, planned) = match (described, planned) {
         (described, Ok(Some(planned))) => (described.map_err(drop), planned),
-        (Ok(Some(described)), _) => {
-            let Made { runs, files, .. } = &described.0;
-            let planned = described.0.clone().with(runs.total, files.len(), None);
-            (Ok(Some(described)), planned)
-        }
+        (Ok(Some(described)), _) => (Ok(Some(described.clone())), described.0),
         (Err(error), _) | (_, Err(error)) => return Err(error),
         (Ok(None), Ok(None)) => return Err(folder.no_data_set()),
     };
@@ -57,7 +53,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     };
     found.problems.extend(unfinished.map(ToOwned::to_owned));
     let made = described.ok().flatten().map(|(made, _)| made);
-    found.of = made.as_ref().map_or(planned.files, |made| made.files.len());
+    found.of = made.as_ref().map_or_else(|| planned.rows_of_files().len(), |made| made.listed().len());
     let set = Set { folder: &folder, made: made.unwrap_or_default(), planned };
     set.files(&mut found)?;
     set.strangers(&mut found)?;
@@ -70,8 +66,8 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
 struct Set<'a> {
     folder: &'a Folder,
     /// `dataset.json`, empty where it is missing.
-    made: Made,
-    planned: Planned,
+    made: About,
+    planned: About,
 }
 
 impl Set<'_> {
@@ -138,7 +134,7 @@ impl Set<'_> {
 
     /// What is written down of a file: checksum and failed runs.
     fn recorded(&self, part: usize) -> Option<(String, u64)> {
-        match self.made.files.get(part) {
+        match self.made.listed().get(part) {
             Some(file) => Some((file.sha256.clone(), file.failed.unwrap_or(0))),
             None => self.folder.recorded(part).map(|facts| (facts.runs.sha256, facts.runs.failed)),
         }
@@ -172,7 +168,10 @@ impl Set<'_> {
     /// Held-out labels may have been taken elsewhere, all of them: those that are here are checked, and what they are
     /// made from.
     fn labels(&self, found: &mut Verified) -> Result<(), DatasetError> {
-        let plan = self.made.held_out.as_ref().map(|held_out| &held_out.plan);
+        let plan = match &self.made.held_out {
+            Some(Held::Made { plan, .. }) => Some(plan),
+            _ => None,
+        };
         let secret = std::fs::read(self.folder.secret()).ok();
         let secret: Sources = secret.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
         let there = |path: &str| self.folder.root.join(path).exists();

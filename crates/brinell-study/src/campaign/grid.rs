@@ -28,11 +28,11 @@ pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>) -> Option<[&'a str;
 
 /// Every combination of the settings of some axes. The last axis changes from point to point, the first one slowest.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Plan {
+pub struct Grid {
     axes: Vec<Axis>,
 }
 
-impl Plan {
+impl Grid {
     /// Of axes; without any it has one point, which changes nothing.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Plan {
     /// Which setting of each axis a point has.
     ///
     /// # Panics
-    /// Where the point is not below [`Plan::points`].
+    /// Where the point is not below [`Grid::points`].
     pub fn place(&self, point: usize) -> Vec<usize> {
         assert!(point < self.points(), "point {point} of {}", self.points());
         let mut rest = point;
@@ -106,7 +106,7 @@ impl Plan {
     /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].
     ///
     /// # Panics
-    /// As [`Plan::place`].
+    /// As [`Grid::place`].
     pub fn settings(&self, point: usize) -> Vec<(String, String)> {
         let chosen = self.axes.iter().zip(self.place(point));
         chosen
@@ -122,8 +122,8 @@ impl Plan {
 mod tests {
     use super::*;
 
-    fn plan(axes: &[&str]) -> Result<Plan, PlanError> {
-        Plan::new(axes.iter().map(|text| Axis::vary(text).unwrap()).collect())
+    fn plan(axes: &[&str]) -> Result<Grid, PlanError> {
+        Grid::new(axes.iter().map(|text| Axis::vary(text).unwrap()).collect())
     }
 
     #[test]
