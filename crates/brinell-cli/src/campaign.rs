@@ -70,8 +70,9 @@ impl<'a> Terminal<'a> {
 }
 
 impl Listener for Terminal<'_> {
-    fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
-        Box::new(self.joint.part(duration_s, self.stop))
+    fn begin(&self, _: usize, duration_s: f64) -> RunListener<'_> {
+        let mut part = self.joint.part(duration_s, self.stop);
+        Box::new(move |t| part.at(t))
     }
 
     fn before(&self, runs: usize) {

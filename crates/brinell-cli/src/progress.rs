@@ -1,7 +1,6 @@
 //! The progress bar: simulated time, speed relative to real time, time to go. Silent where no terminal listens.
 
 use crate::say::{say, short};
-use brinell_study::listener::RunListener;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -55,8 +54,9 @@ impl<'a> Progress<'a> {
     }
 }
 
-impl RunListener for Progress<'_> {
-    fn at(&mut self, t: f64) -> ControlFlow<()> {
+impl Progress<'_> {
+    /// The simulated time reached, s.
+    pub(crate) fn at(&mut self, t: f64) -> ControlFlow<()> {
         self.show(t);
         brinell::many::go_on(self.stop)
     }

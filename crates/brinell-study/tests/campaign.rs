@@ -9,7 +9,7 @@ use brinell::{Error, RunResult, simulate};
 use brinell_study::campaign;
 use brinell_study::listener::{Listener, RunListener, Silent};
 use std::num::NonZeroUsize;
-use std::sync::atomic::AtomicBool;
+use std::ops::ControlFlow;
 
 fn scenario(settings: &[(&str, &str)]) -> Scenario {
     let text = include_str!("../../../examples/single-row.toml");
@@ -24,17 +24,10 @@ fn scenario(settings: &[(&str, &str)]) -> Scenario {
 struct StopFirst;
 
 impl Listener for StopFirst {
-    fn begin(&self, run: usize, _: f64) -> Box<dyn RunListener + '_> {
-        match run {
-            0 => Box::new(&STOPPED),
-            _ => Box::new(Silent),
-        }
+    fn begin(&self, run: usize, _: f64) -> RunListener<'_> {
+        Box::new(move |_| if run == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     }
-
-    fn ended(&self, _: usize, _: Option<&str>) {}
 }
-
-static STOPPED: AtomicBool = AtomicBool::new(true);
 
 #[test]
 fn prop_runs_side_by_side_are_those_of_each_alone() {

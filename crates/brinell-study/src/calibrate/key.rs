@@ -98,13 +98,9 @@ impl Key {
 /// Where they may not.
 pub fn check(keys: &[Key]) -> Result<(), CalibrateError> {
     if keys.is_empty() {
-        return Err(CalibrateError::NoKey);
+        return Err(PlanError::Refused("no key is to be fitted".into()).into());
     }
-    match clash(keys.iter().map(|key| key.name.as_str())) {
-        None => Ok(()),
-        Some([key, again]) if key == again => Err(CalibrateError::Twice(key.into())),
-        Some([first, second]) => Err(CalibrateError::Inside(first.into(), second.into())),
-    }
+    Ok(clash(keys.iter().map(|key| key.name.as_str()), "is to be fitted twice; each key has one range")?)
 }
 
 #[cfg(test)]

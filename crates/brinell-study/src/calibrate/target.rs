@@ -83,7 +83,7 @@ pub(super) fn check(targets: &[Target]) -> Result<(), CalibrateError> {
     }
     for (k, target) in targets.iter().enumerate() {
         if targets[..k].iter().any(|other| other.name == target.name) {
-            return Err(CalibrateError::TargetTwice(target.name.clone()));
+            return Err(PlanError::Refused(format!("{} is a target twice; each has one value", target.name)).into());
         }
     }
     Ok(())

@@ -47,11 +47,12 @@ impl Axis {
         }
         let length = first.1.len();
         if let Some(other) = others.iter().find(|other| other.1.len() != length) {
-            return Err(PlanError::Keys {
-                first: first.0.clone(),
-                second: other.0.clone(),
-                why: format!("have {length} and {} values; keys that vary together have equally many", other.1.len()),
-            });
+            return Err(PlanError::Refused(format!(
+                "{} and {} have {length} and {} values; keys that vary together have equally many",
+                first.0,
+                other.0,
+                other.1.len()
+            )));
         }
         let settings = (0..length).map(|k| parts.iter().map(|part| part.1[k].clone()).collect()).collect();
         Self::new(parts.iter().map(|part| part.0.clone()).collect(), settings)
@@ -105,7 +106,7 @@ impl Axis {
 }
 
 pub(crate) fn syntax(text: &str, expected: &str) -> PlanError {
-    PlanError::Syntax { text: text.trim().into(), expected: expected.into() }
+    PlanError::Refused(format!("`{}`: expected {expected}", text.trim()))
 }
 
 /// A key and what is behind its equals sign.

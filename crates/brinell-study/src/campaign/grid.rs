@@ -6,24 +6,24 @@ use super::row::{digest, in_json};
 use serde::Serialize;
 use serde_json::Value;
 
-/// What is wrong with keys of which one is part of the other.
-pub(crate) const INSIDE: &str = "lie one inside the other, and would overwrite each other";
-
 /// Whether a key is another one, or one inside it.
 pub fn is_inside(key: &str, other: &str) -> bool {
     key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// The first two keys that set the same: a key twice, or one inside the other.
-pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>) -> Option<[&'a str; 2]> {
+/// That no two keys set the same: a key twice, of which `twice` is said, or one inside the other.
+pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>, twice: &str) -> Result<(), PlanError> {
     let mut before: Vec<&str> = Vec::new();
     for key in keys {
         if let Some(other) = before.iter().find(|other| is_inside(key, other) || is_inside(other, key)) {
-            return Some([other, key]);
+            return Err(PlanError::Refused(match *other == key {
+                true => format!("{key} {twice}"),
+                false => format!("{other} and {key} lie one inside the other, and would overwrite each other"),
+            }));
         }
         before.push(key);
     }
-    None
+    Ok(())
 }
 
 /// Every combination of the settings of some axes. The last axis changes from point to point, the first one slowest.
@@ -38,17 +38,11 @@ impl Grid {
     /// # Errors
     /// Where two axes set one key, or one inside the other, or there are more than 100 000 points.
     pub fn new(axes: Vec<Axis>) -> Result<Self, PlanError> {
-        match clash(axes.iter().flat_map(Axis::keys).map(String::as_str)) {
-            Some([key, again]) if key == again => return Err(PlanError::Twice(key.into())),
-            Some([first, second]) => {
-                return Err(PlanError::Keys { first: first.into(), second: second.into(), why: INSIDE.into() });
-            }
-            None => {}
-        }
+        clash(axes.iter().flat_map(Axis::keys).map(String::as_str), "varies twice; each key varies in one place")?;
         // At most 100000^axes: a command line is too short to overflow this, and saturation would still refuse.
         let points = axes.iter().fold(1_u128, |product, axis| product.saturating_mul(axis.settings().len() as u128));
         if points > MOST_POINTS as u128 {
-            return Err(PlanError::TooMany { points });
+            return Err(PlanError::Refused(format!("{points} points\n  allowed: 1 to {MOST_POINTS} points")));
         }
         Ok(Self { axes })
     }

@@ -29,9 +29,9 @@ pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use error::PlanError;
 pub use grid::Grid;
+pub(crate) use grid::clash;
 #[doc(hidden)]
 pub use grid::is_inside;
-pub(crate) use grid::{INSIDE, clash};
 pub(crate) use kernel::{DIFFER, kernel, other_kernel};
 #[doc(hidden)]
 pub use row::digest;

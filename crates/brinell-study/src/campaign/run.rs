@@ -14,7 +14,7 @@ pub fn run_all(
     listener: &dyn Listener,
 ) -> Vec<Result<RunResult, Error>> {
     many::map(scenarios.len(), threads, |k| {
-        let mut hearer = listener.begin(k, scenarios[k].simulation.duration_s);
-        simulate_with(&scenarios[k], &mut Progress(|t| hearer.at(t)))
+        let hearer = listener.begin(k, scenarios[k].simulation.duration_s);
+        simulate_with(&scenarios[k], &mut Progress(hearer))
     })
 }

@@ -146,8 +146,7 @@ impl Split {
 }
 
 /// A class with its runs; of a data set with held-out labels with those that are open.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Class {
     pub(crate) name: String,
     pub(crate) label: usize,
@@ -158,7 +157,6 @@ pub(crate) struct Class {
 }
 
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub(crate) struct Rate {
     pub(crate) sample_rate_hz: Option<f64>,
     pub(crate) duration_s: Option<f64>,
@@ -166,8 +164,7 @@ pub(crate) struct Rate {
 }
 
 /// A column of the files.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ColumnOf {
     pub(crate) name: String,
     #[serde(rename = "type")]
@@ -185,14 +182,12 @@ impl ColumnOf {
 }
 
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub(crate) struct Geometry {
     pub(crate) meaning: String,
     pub(crate) keys: Vec<GeometryKey>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct GeometryKey {
     pub(crate) key: String,
     pub(crate) value: Option<String>,
@@ -205,7 +200,6 @@ pub(crate) struct GeometryKey {
 
 /// What a data set is made from.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub(crate) struct Sources {
     pub(crate) plan: String,
     pub(crate) base: String,
@@ -217,8 +211,7 @@ pub(crate) struct Sources {
 }
 
 /// A file with its checksum.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Sum {
     pub(crate) path: String,
     pub(crate) sha256: String,
@@ -226,7 +219,6 @@ pub(crate) struct Sum {
 
 /// A file of the data set.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub(crate) struct Listed {
     pub(crate) path: String,
     pub(crate) rows: u64,

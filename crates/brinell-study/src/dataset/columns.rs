@@ -120,7 +120,7 @@ const KNOWN: [Fixed; 12] = [
     ("sample_rate_hz", "Hz", "samples a second of the signals", Number(|r| Some(r.scenario()?.simulation.sample_rate_hz))),
     ("duration_s", "s", "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
         Number(|r| Some(r.scenario()?.simulation.duration_s))),
-    ("analysed_from_s", "s", "the load has its full size and the start is over from here on: forces and slip of the ground truth count from here", Number(|r| r.gathered()?.from)),
+    ("analysed_from_s", "s", "the load has its full size and the start is over from here on: forces and slip of the ground truth count from here", Number(|r| (r.gathered()?.samples > 0).then_some(r.findings()?.from))),
     ("bearing", "1", "catalogue name, where one was given", Words(|r| r.scenario()?.bearing.preset.clone())),
     ("rows", "1", "rows of rollers", Whole(|r| Some(r.scenario()?.bearing.rows))),
     ("rollers_per_row", "1", "rollers of a row", Whole(|r| Some(r.scenario()?.bearing.rollers_per_row))),

@@ -28,8 +28,6 @@ pub(crate) struct Truth {
     /// Contact forces at the step before, by side, N.
     before: [Vec<f64>; 2],
     pub(crate) instants: Vec<Instant>,
-    /// The analysed time begins here, s.
-    pub(crate) from: Option<f64>,
     /// Of each roller's outer contact: sum and largest force over samples, N.
     pub(crate) outer: Vec<(f64, f64)>,
     pub(crate) samples: u64,
@@ -61,7 +59,6 @@ impl Truth {
             passes: Passes::new(simulation.model()),
             before: [0; 2].map(|_| vec![0.0; layout.rollers()]),
             instants: Vec::new(),
-            from: None,
             outer: vec![(0.0, 0.0); layout.rollers()],
             samples: 0,
             largest: 0.0,
@@ -86,7 +83,7 @@ impl Observer for Truth {
         self.instants.clear();
         self.outer.fill((0.0, 0.0));
         self.signals.iter_mut().for_each(Vec::clear);
-        (self.from, self.samples, self.largest, self.kept) = (None, 0, 0.0, 0);
+        (self.samples, self.largest, self.kept) = (0, 0.0, 0);
         ControlFlow::Continue(())
     }
 
@@ -104,10 +101,7 @@ impl Observer for Truth {
     }
 
     fn sample(&mut self, _: u64, frame: &Frame) {
-        if self.from.is_none() && frame.t >= self.settled {
-            self.from = Some(frame.t);
-        }
-        if self.from.is_none() {
+        if frame.t < self.settled {
             return;
         }
         self.samples += 1;

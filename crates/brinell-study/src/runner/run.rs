@@ -138,7 +138,7 @@ pub(crate) fn observed(
     listener: &dyn Listener,
 ) -> Result<RunResult, RunnerError> {
     let mut hearer = listener.begin(k, scenario.simulation.duration_s);
-    let mut recorder = Recorder::new(&simulation, make, hearer.as_mut())?.beside(beside.map(|beside| beside as _));
+    let mut recorder = Recorder::new(&simulation, make, &mut *hearer)?.beside(beside.map(|beside| beside as _));
     let finished = finish(scenario, simulation, &mut recorder);
     for file in recorder.close(&finished.outcome.end, false)? {
         file.publish()?;
