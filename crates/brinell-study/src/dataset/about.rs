@@ -59,7 +59,7 @@ pub(crate) enum Files {
     #[default]
     Unknown,
     Planned(usize),
-    Made(Vec<Listed>),
+    Made(Vec<Facts>),
 }
 
 /// Whether labels are held out; and what they are made from.
@@ -72,7 +72,7 @@ pub(crate) enum Held {
 
 impl About {
     /// Its files, where they are there.
-    pub(crate) fn listed(&self) -> &[Listed] {
+    pub(crate) fn listed(&self) -> &[Facts] {
         match &self.files {
             Files::Made(files) => files,
             _ => &[],
@@ -120,7 +120,7 @@ pub(crate) struct Split {
 impl Split {
     /// Adds a finished file of it.
     pub(crate) fn add(&mut self, facts: &Facts) {
-        *self.failed.get_or_insert(0) += facts.failed;
+        *self.failed.get_or_insert(0) += facts.failed.unwrap_or(0);
         let mut tally = self.tally();
         tally.join(facts.tally.as_ref());
         // The plan has the runs.
@@ -207,7 +207,7 @@ pub(crate) struct Sources {
     pub(crate) to_repeat: String,
     /// Of labels that are held out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) files: Option<Vec<Listed>>,
+    pub(crate) files: Option<Vec<Facts>>,
 }
 
 /// A file with its checksum.
@@ -217,37 +217,24 @@ pub(crate) struct Sum {
     pub(crate) sha256: String,
 }
 
-/// A file of the data set.
+/// A finished file of the data set: what is written down of it, and its entry in a description.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Listed {
+pub(crate) struct Facts {
+    /// In a description.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) path: String,
     pub(crate) rows: u64,
-    /// Of runs; of labels how many failed is not said.
+    /// Of runs; of labels a description does not say it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) failed: Option<u64>,
     pub(crate) bytes: u64,
     pub(crate) sha256: String,
+    /// By class; none where labels are held out, and in a description.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) tally: Option<Tally>,
+    /// In a description, of runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) split: Option<String>,
-}
-
-/// What is known of a finished file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Facts {
-    pub(crate) rows: u64,
-    #[serde(default)]
-    pub(crate) failed: u64,
-    pub(crate) bytes: u64,
-    pub(crate) sha256: String,
-    /// By class; none where labels are held out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) tally: Option<Tally>,
-}
-
-impl Facts {
-    pub(crate) fn listed(self, path: String) -> Listed {
-        Listed { path, rows: self.rows, bytes: self.bytes, sha256: self.sha256, ..Listed::default() }
-    }
 }
 
 /// The file of runs of a part, and that of labels that are held out.

@@ -2,7 +2,7 @@
 //! that read MLCommons' Croissant.
 
 use crate::campaign::digest;
-use crate::dataset::about::{About, ColumnOf, Listed, Runs, Split, Sum};
+use crate::dataset::about::{About, ColumnOf, Facts, Runs, Split, Sum};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
 use crate::dataset::tally::Tally;
@@ -151,7 +151,7 @@ fn card(about: &About) -> String {
 
 /// The data set as JSON-LD, by the Croissant format specification 1.0 (MLCommons, 2024).
 fn croissant(about: &About) -> Value {
-    let file = |file: &Listed| {
+    let file = |file: &Facts| {
         json!({
             "@type": "cr:FileObject", "@id": file.path, "name": file.path, "contentUrl": file.path,
             "contentSize": format!("{} B", file.bytes), "encodingFormat": "application/x-parquet", "sha256": file.sha256,

@@ -292,7 +292,7 @@ fn file_facts(path: &Path) -> Result<Facts, DatasetError> {
     let bytes = std::fs::metadata(path).map_err(|error| DatasetError::Read { path: path.to_owned(), error })?.len();
     let failed = metadata.get(FAILED).and_then(|text| text.parse().ok()).unwrap_or(0);
     let tally = metadata.get(TALLY).and_then(|text| serde_json::from_str(text).ok());
-    Ok(Facts { rows, failed, bytes, sha256: sha256_of(path)?, tally })
+    Ok(Facts { rows, failed: Some(failed), bytes, sha256: sha256_of(path)?, tally, ..Facts::default() })
 }
 
 /// Key of a file's metadata: how many of its runs failed.

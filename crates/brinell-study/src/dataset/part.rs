@@ -47,7 +47,8 @@ impl Rows {
     fn finish(mut self, failed: u64, tally: Option<Tally>) -> Result<Facts, DatasetError> {
         self.flush()?;
         let written = self.writer.finish()?;
-        Ok(Facts { rows: self.rows, failed, bytes: written.bytes, sha256: written.sha256, tally })
+        let (rows, bytes, sha256) = (self.rows, written.bytes, written.sha256);
+        Ok(Facts { rows, failed: Some(failed), bytes, sha256, tally, ..Facts::default() })
     }
 }
 

@@ -130,7 +130,7 @@ pub fn run(
     summary.interrupted = flow.is_break();
     for part in parts {
         if let Some(facts) = folder.finished(part)? {
-            summary.failed += facts.runs.failed;
+            summary.failed += facts.runs.failed.unwrap_or(0);
             summary.tally.join(facts.runs.tally.as_ref());
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::campaign::{digest, in_json, kernel};
 use crate::dataset::about::{
-    About, Class, ColumnOf, Files, Geometry, GeometryKey, Held, Listed, Rate, Runs, Sources, Split, Sum,
+    About, Class, ColumnOf, Facts, Files, Geometry, GeometryKey, Held, Rate, Runs, Sources, Split, Sum,
 };
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
@@ -151,10 +151,9 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
         };
         let split = about.splits.iter_mut().find(|split| split.name == name);
         split.into_iter().for_each(|split| split.add(&facts.runs));
-        let failed = Some(facts.runs.failed);
         let path = |place: &str| format!("{place}/{}", file_name(part));
-        files.push(Listed { failed, split: Some(name), ..facts.runs.listed(path("runs")) });
-        labels.extend(facts.held_out.map(|facts| facts.listed(path("held_out"))));
+        files.push(Facts { path: path("runs"), tally: None, split: Some(name), ..facts.runs });
+        labels.extend(facts.held_out.map(|facts| Facts { path: path("held_out"), failed: None, ..facts }));
     }
     about.held_out = None;
     if let Some(mut secret) = about.secret.take() {

@@ -1,7 +1,7 @@
 //! A data set's folder compared with what it says of itself.
 
 use crate::campaign::DIFFER;
-use crate::dataset::about::{About, Held, Sources};
+use crate::dataset::about::{About, Facts, Held, Sources};
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, PART, SECRET_PATH, file_name, number_of};
@@ -123,21 +123,19 @@ impl Set<'_> {
         say(facts.columns != columns, "other columns than the data set's");
         let count = format!("{} rows instead of {rows}", facts.rows);
         say(facts.rows != rows, &count);
-        if let Some((sha256, failed)) = self.recorded(part) {
-            say(sha256_of(&path)? != sha256, "its checksum is another than when it was written");
-            found.failed += failed;
+        if let Some(recorded) = self.recorded(part) {
+            say(sha256_of(&path)? != recorded.sha256, "its checksum is another than when it was written");
+            found.failed += recorded.failed.unwrap_or(0);
         }
         found.rows += facts.rows;
         found.files += usize::from(found.problems.len() == before);
         Ok(())
     }
 
-    /// What is written down of a file: checksum and failed runs.
-    fn recorded(&self, part: usize) -> Option<(String, u64)> {
-        match self.made.listed().get(part) {
-            Some(file) => Some((file.sha256.clone(), file.failed.unwrap_or(0))),
-            None => self.folder.recorded(part).map(|facts| (facts.runs.sha256, facts.runs.failed)),
-        }
+    /// What is written down of a file.
+    fn recorded(&self, part: usize) -> Option<Facts> {
+        let listed = self.made.listed().get(part).cloned();
+        listed.or_else(|| Some(self.folder.recorded(part)?.runs))
     }
 
     fn strangers(&self, found: &mut Verified) -> Result<(), DatasetError> {
