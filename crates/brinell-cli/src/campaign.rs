@@ -35,8 +35,7 @@ pub(crate) fn run(
     stop: &AtomicBool,
 ) -> Result<ControlFlow<()>, Failure> {
     let total = tasks.iter().map(|task| task.duration_s).sum();
-    let joint = Joint::new(tasks.len(), total, quiet);
-    runner::run(tasks, work, ledger, threads, &Terminal::new(&joint, stop, 0.0))
+    runner::run(tasks, work, ledger, threads, &Terminal::new(tasks.len(), total, quiet, stop))
 }
 
 impl From<RunnerError> for Failure {
@@ -50,7 +49,7 @@ impl From<RunnerError> for Failure {
 
 /// Shows runs on one bar, listens for Ctrl-C, and keeps why runs failed.
 pub(crate) struct Terminal<'a> {
-    joint: &'a Joint,
+    joint: Joint,
     stop: &'a AtomicBool,
     /// Simulated time of a run that was there before, s.
     each_s: f64,
@@ -58,8 +57,10 @@ pub(crate) struct Terminal<'a> {
 }
 
 impl<'a> Terminal<'a> {
-    pub(crate) fn new(joint: &'a Joint, stop: &'a AtomicBool, each_s: f64) -> Self {
-        Self { joint, stop, each_s, failures: Mutex::default() }
+    /// For `runs` runs of `duration_s` seconds together; `stop` breaks them off.
+    pub(crate) fn new(runs: usize, duration_s: f64, quiet: bool, stop: &'a AtomicBool) -> Self {
+        let each_s = duration_s / runs.max(1) as f64;
+        Self { joint: Joint::new(runs, duration_s, quiet), stop, each_s, failures: Mutex::default() }
     }
 
     /// Which runs failed, and why.
@@ -69,8 +70,9 @@ impl<'a> Terminal<'a> {
 }
 
 impl Listener for Terminal<'_> {
-    fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
-        Box::new(self.joint.part(duration_s, self.stop))
+    fn begin(&self, _: usize, duration_s: f64) -> RunListener<'_> {
+        let mut part = self.joint.part(duration_s, self.stop);
+        Box::new(move |t| part.at(t))
     }
 
     fn before(&self, runs: usize) {

@@ -1,7 +1,6 @@
 //! The progress bar: simulated time, speed relative to real time, time to go. Silent where no terminal listens.
 
 use crate::say::{say, short};
-use brinell_study::listener::RunListener;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -55,8 +54,9 @@ impl<'a> Progress<'a> {
     }
 }
 
-impl RunListener for Progress<'_> {
-    fn at(&mut self, t: f64) -> ControlFlow<()> {
+impl Progress<'_> {
+    /// The simulated time reached, s.
+    pub(crate) fn at(&mut self, t: f64) -> ControlFlow<()> {
         self.show(t);
         brinell::many::go_on(self.stop)
     }
@@ -96,11 +96,6 @@ impl Joint {
     /// number, drawn by whoever finds that a tenth of a second has passed.
     pub(crate) fn part<'a>(&self, duration: f64, stop: &'a AtomicBool) -> Progress<'a> {
         Progress { bar: self.bar.clone(), duration, begin: Instant::now(), skipped: 0, shared: Some(0), stop }
-    }
-
-    /// Takes the bar away: no more runs come.
-    pub(crate) fn clear(&self) {
-        self.bar.finish_and_clear();
     }
 
     /// A run of `duration` seconds was done before.

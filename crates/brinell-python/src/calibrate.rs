@@ -11,8 +11,8 @@ use brinell::document::on_one_line;
 use brinell::simulate::Simulation;
 use brinell_report::{Study, calibration_undetermined, calibration_verdict, study_html};
 use brinell_study::calibrate::{
-    self as study, CalibrateError, Key, Load, Measured, Outcome, Pattern, Plan, Target, Unfinished, bounds, check_keys,
-    middle,
+    self as study, CalibrateError, FitPlan, Key, Load, Measured, Outcome, Pattern, Target, Unfinished, bounds,
+    check_keys, middle,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -109,7 +109,7 @@ pub(crate) fn calibrate<'py>(
         Ok::<_, PyErr>(pattern)
     });
     let pattern = pattern.transpose()?;
-    let plan = py.detach(|| Plan::new(keys, targets, pattern, middle, &simulation, seed, budget));
+    let plan = py.detach(|| FitPlan::new(keys, targets, pattern, middle, &simulation, seed, budget));
     let plan = Arc::new(plan.map_err(|error| wrong("targets", error))?);
     let ledger = ledger(folder.as_deref(), &plan.header())?;
     let load: &Load<'_> = &|settings| {

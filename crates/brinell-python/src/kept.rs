@@ -4,17 +4,11 @@ use crate::bad_value::bad_value;
 use crate::errors::ReadError;
 use crate::scenario::Source;
 use crate::wait::{Watch, attended, threads};
-use brinell::document::one_line;
-use brinell::result::Quantity;
 use brinell::scenario::Scenario;
-use brinell_study::campaign::Plan;
-use brinell_study::runner::{self, Ledger, RunnerError, Task, Work, to_run};
+use brinell_study::runner::{self, GridPoints, Kept, Ledger, RunnerError, Task, Work, to_run};
 use pyo3::prelude::*;
 use serde_json::Value;
 use std::path::Path;
-
-/// A point's numbers with what they should be warned of, or why there are none.
-pub(crate) type Ran = Result<(Vec<Quantity>, Vec<String>), String>;
 
 /// Scenarios of points, from the one that they change.
 struct Points<'a>(&'a Source);
@@ -46,20 +40,19 @@ pub(crate) fn ledger(folder: Option<&Path>, header: &Value) -> PyResult<Ledger> 
     Ledger::open(folder, header, false).map_err(|error| refused(Some(folder), error))
 }
 
-/// Of each point its numbers, or why there are none; with a `folder` none is run again that is in its journal.
+/// Makes the runs of the points that are not done; with a `folder` none is run again that is in its journal. Gives the
+/// journal's points.
 pub(crate) fn run(
     py: Python<'_>,
-    (plan, source): (&Plan, &Source),
-    points: Vec<Result<Task, String>>,
+    (points, source): (&GridPoints, &Source),
     folder: Option<&Path>,
     jobs: Option<isize>,
     mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
-) -> PyResult<Vec<Ran>> {
-    let prints = points.iter().map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
-    let mut ledger = ledger(folder, &plan.header(prints))?;
-    let tasks = to_run(points.iter().flatten(), |task| ledger.kept.row(&task.fingerprint).is_some());
+) -> PyResult<Kept> {
+    let mut ledger = ledger(folder, &points.header())?;
+    let tasks = to_run(points.tasks.iter().flatten(), |task| ledger.kept.row(&task.fingerprint).is_some());
     let threads = threads(jobs, tasks.len())?;
-    let mut done = plan.points() - tasks.len();
+    let mut done = points.tasks.len() - tasks.len();
     progress(py, done)?;
     let (before, watch) = (done, Watch::default());
     let runs = || runner::run(&tasks, &Points(source), &mut ledger, threads, &watch);
@@ -70,10 +63,5 @@ pub(crate) fn run(
         })
     };
     attended(py, &watch, runs, tell)?.map(drop).map_err(|error| refused(folder, error))?;
-    let result = |point: Result<Task, String>| {
-        let row = ledger.kept.row(&point?.fingerprint).ok_or("not run")?;
-        let numbers = row.result.clone().map_err(|reason| one_line(&reason))?;
-        Ok((numbers, row.warnings.clone()))
-    };
-    Ok(points.into_iter().map(result).collect())
+    Ok(ledger.kept)
 }

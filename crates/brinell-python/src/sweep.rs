@@ -3,14 +3,14 @@
 use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python, python_to_toml};
 use crate::errors::scenario_error;
-use crate::kept::{self, Ran};
+use crate::kept;
 use crate::scenario::Scenario;
 use crate::wait::{Watch, attended, threads};
 use brinell::document::reading::text_in_unit_of;
-use brinell::document::{Problem, on_one_line};
+use brinell::document::{Problem, on_one_line, one_line};
 use brinell::result::Quantity;
-use brinell_study::campaign::{Axis, Plan, columns, of_results};
-use brinell_study::runner::ReadPoints;
+use brinell_study::campaign::{Axis, Grid, columns};
+use brinell_study::runner::{GridPoints, State};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString};
 use std::path::PathBuf;
@@ -38,28 +38,28 @@ pub(crate) fn sweep<'py>(
             .collect::<PyResult<Vec<Vec<String>>>>()?;
         Axis::new(keys, texts).map_err(bad_value)
     });
-    let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
-    let total = plan.points();
+    let grid = Grid::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
+    let total = grid.points();
     let threads = threads(jobs, total)?;
     let load = |settings: &[(String, String)]| scenario.source.with(settings).load().map(|(loaded, _)| loaded);
     let words = |problems: &Vec<Problem>| on_one_line(problems);
-    let read = attended(py, &Watch::default(), || ReadPoints::of(&plan, threads, load, words), |_, _| Ok(()))?;
-    let ReadPoints { tasks, mut warnings, .. } = read.map_err(|problems| scenario_error(py, problems, None))?;
+    let read = attended(py, &Watch::default(), || GridPoints::read(grid, threads, load, words), |_, _| Ok(()))?;
+    let points = read.map_err(|problems| scenario_error(py, problems, None))?;
     let show = |py: Python<'_>, done: usize| match &progress {
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),
     };
-    let results = kept::run(py, (&plan, &scenario.source), tasks, folder.as_deref(), jobs, show)?;
-    let complete = |(k, ran): (usize, &Ran)| Some((k, ran.as_ref().ok()?.1.clone()));
-    warnings.extend(of_results(results.iter().enumerate().filter_map(complete), "point", |k| k + 1));
-    let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_ref().map_or(&[][..], |ran| &ran.0)).collect();
+    let kept = kept::run(py, (&points, &scenario.source), folder.as_deref(), jobs, show)?;
+    let states = points.states(&kept);
+    let warnings = [&points.warnings[..], &State::doubts(&states)].concat();
+    let runs: Vec<&[Quantity]> = states.iter().map(State::numbers).collect();
     let list = PyList::empty(py);
     for column in columns(&runs) {
         let values = column.values.iter().map(|v| v.unwrap_or(f64::NAN));
         list.append((column.name, column.unit, array(py, values.collect())))?;
     }
-    let places = (0..plan.points()).map(|k| plan.place(k)).collect();
-    let reasons = results.iter().map(|r| r.as_ref().err().cloned()).collect();
+    let places = (0..total).map(|k| points.grid.place(k)).collect();
+    let reasons = states.iter().map(|state| state.failure().map(one_line)).collect();
     Ok((places, reasons, list, warnings))
 }
 

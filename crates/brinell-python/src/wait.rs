@@ -75,8 +75,8 @@ pub(crate) struct Watch {
 }
 
 impl Listener for Watch {
-    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
-        Box::new(&self.stop)
+    fn begin(&self, _: usize, _: f64) -> RunListener<'_> {
+        Box::new(|_| brinell::many::go_on(&self.stop))
     }
 
     fn before(&self, runs: usize) {

@@ -7,6 +7,7 @@ use brinell::signal::Indicator;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult, simulate};
 use brinell_study::campaign;
+use brinell_study::listener::{Listener, RunListener, Silent};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
@@ -19,14 +20,19 @@ fn scenario(settings: &[(&str, &str)]) -> Scenario {
     read(text, &overrides).expect("it is sound").scenario
 }
 
-fn go_on(_: usize, _: f64) -> ControlFlow<()> {
-    ControlFlow::Continue(())
+/// Breaks off the first run.
+struct StopFirst;
+
+impl Listener for StopFirst {
+    fn begin(&self, run: usize, _: f64) -> RunListener<'_> {
+        Box::new(move |_| if run == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
 }
 
 #[test]
 fn prop_runs_side_by_side_are_those_of_each_alone() {
     let list = [scenario(&[]), scenario(&[("simulation.model", "lumped")]), scenario(&[("defects", "[]")])];
-    let all = campaign::run_all(&list, NonZeroUsize::new(3).unwrap(), go_on);
+    let all = campaign::run_all(&list, NonZeroUsize::new(3).unwrap(), &Silent);
     let mut finished = Vec::new();
     for (one, result) in list.iter().zip(all) {
         let together = result.expect("it runs");
@@ -83,11 +89,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
 #[test]
 fn prop_a_run_that_is_broken_off_is_none() {
     let list = [scenario(&[]), scenario(&[])];
-    let stop_first = |k: usize, _: f64| match k {
-        0 => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
-    };
-    let results = campaign::run_all(&list, NonZeroUsize::MIN, stop_first);
+    let results = campaign::run_all(&list, NonZeroUsize::MIN, &StopFirst);
     assert!(matches!(results[0], Err(Error::Stopped)));
     assert!(results[1].is_ok());
 }

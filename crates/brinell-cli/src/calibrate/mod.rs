@@ -7,7 +7,6 @@ use crate::campaign::{self, Terminal};
 use crate::failure::Failure;
 use crate::files::make_folder;
 use crate::files::{Source, stem};
-use crate::progress::Joint;
 use crate::results::{Place, Results, put};
 use crate::say::{self, complain, plural, pretty, say, short, twelve_digits};
 use crate::stop::stop_flag;
@@ -17,7 +16,8 @@ use brinell::simulate::Simulation;
 use brinell_report::{Study, calibration_undetermined, calibration_verdict, digits_beside, interval_text};
 use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
-    CalibrateError, Key, Load, Outcome, Plan, Points, Settings, Target, Unfinished, Unfit, bounds, check_keys, middle,
+    CalibrateError, FitPlan, Key, Load, Outcome, Points, Settings, Target, Unfinished, Unfit, bounds, check_keys,
+    middle,
 };
 use brinell_study::campaign::is_inside;
 use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
@@ -55,9 +55,10 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     }
     let stop = stop_flag()?;
     let each = plan.middle.scenario.simulation.duration_s;
-    let joint = Joint::new(plan.settings.budget, each * plan.settings.budget as f64, args.quiet);
-    let found = brinell_study::calibrate::calibrate(&plan, load, ledger, threads, &Terminal::new(&joint, &stop, each));
-    joint.clear();
+    let budget = plan.settings.budget;
+    let terminal = Terminal::new(budget, each * budget as f64, args.quiet, &stop);
+    let found = brinell_study::calibrate::calibrate(&plan, load, ledger, threads, &terminal);
+    drop(terminal);
     let outcome = match found {
         Ok(outcome) => outcome,
         Err(Unfinished::Runner(error)) => return Err(error.into()),
@@ -112,7 +113,7 @@ fn usage(error: &CalibrateError, option: &str) -> Failure {
 }
 
 /// Reads and checks everything, before anything runs. What deserves attention comes with it.
-fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failure> {
+fn read(args: &CalibrateArgs) -> Result<(Source, Arc<FitPlan>, Vec<String>), Failure> {
     let keys: Vec<Key> =
         (args.fit.iter()).map(|text| Key::read(text).map_err(|e| usage(&e, "--fit"))).collect::<Result<_, _>>()?;
     check_keys(&keys).map_err(|e| usage(&e, "--fit"))?;
@@ -137,7 +138,7 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     let simulation = Simulation::unchecked(&middle.scenario)?;
     let pattern = measured::pattern(args, (&source, &keys), (&middle.scenario, &simulation))?;
     let (pattern, warnings) = pattern.map_or((None, Vec::new()), |(pattern, warnings)| (Some(pattern), warnings));
-    let plan = Plan::new(keys, targets, pattern, middle, &simulation, args.seed, args.budget);
+    let plan = FitPlan::new(keys, targets, pattern, middle, &simulation, args.seed, args.budget);
     let plan = plan.map_err(|error| match &error {
         CalibrateError::Name(_) => Failure::Usage(format!("--target {error}")),
         CalibrateError::Budget { budget, .. } => Failure::Usage(format!("--budget {budget}: {error}")),
@@ -195,7 +196,7 @@ fn plan_json(points: &Points, warnings: &[String], threads: NonZeroUsize) -> Val
 }
 
 /// What all runs simulate, s.
-fn simulated_s(plan: &Plan) -> f64 {
+fn simulated_s(plan: &FitPlan) -> f64 {
     plan.middle.scenario.simulation.duration_s * plan.settings.budget as f64
 }
 

@@ -4,10 +4,10 @@ mod args;
 mod sides;
 mod spread;
 
+use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::files::{make_folder, safe_name, stem};
 use crate::inputs::Inputs;
-use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
@@ -17,12 +17,10 @@ use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
 use brinell_report::Study;
 use brinell_study::campaign::{self, Compared, Level, Side, run_all, sides_json, sides_scenarios, sides_table};
-use brinell_study::listener::RunListener;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Mutex, PoisonError};
 
 const CSV: &str = "compare.csv";
 const PARQUET: &str = "compare.parquet";
@@ -116,13 +114,9 @@ fn run(args: &CompareArgs, sides: &[Side], stop: &AtomicBool) -> Option<Vec<RunR
     let list: Vec<_> = sides.iter().map(scenario).collect();
     let threads = brinell::many::threads(list.len());
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
-    let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
-    let parts: Vec<_> = sides.iter().map(|side| Mutex::new(joint.part(duration(side), stop))).collect();
-    let results = run_all(&list, args.jobs.unwrap_or(threads), |k, t| {
-        parts[k].lock().unwrap_or_else(PoisonError::into_inner).at(t)
-    });
-    drop(parts);
-    drop(joint);
+    let listener = Terminal::new(list.len(), sides.iter().map(duration).sum(), args.quiet, stop);
+    let results = run_all(&list, args.jobs.unwrap_or(threads), &listener);
+    drop(listener);
     let (mut runs, mut stopped) = (Vec::new(), false);
     for (side, result) in sides.iter().zip(results) {
         match result {

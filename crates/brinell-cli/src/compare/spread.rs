@@ -5,7 +5,7 @@ use super::sides::Sides;
 use crate::say::{complain, plural, short};
 use brinell::RunResult;
 use brinell::many;
-use brinell_study::campaign::{Level, SPREAD_MEANING, Side, assumed, levels_json, ratios, run_ends};
+use brinell_study::campaign::{Level, SPREAD_MEANING, Side, assumed, ratios, run_ends};
 use serde_json::{Value, json};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -47,6 +47,6 @@ pub(super) fn words(levels: &[Level], name: &str) -> Option<String> {
 
 /// The ratios of each side.
 pub(super) fn json(sides: &[Side], ratios: &[Vec<Level>]) -> Value {
-    let side = |(side, levels): (&Side, &Vec<Level>)| json!({ "of": side.label, "ratios": levels_json(levels) });
+    let side = |(side, levels): (&Side, &Vec<Level>)| json!({ "of": side.label, "ratios": levels });
     json!({ "meaning": SPREAD_MEANING, "sides": sides[1..].iter().zip(ratios).map(side).collect::<Vec<_>>() })
 }

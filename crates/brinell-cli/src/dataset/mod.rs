@@ -8,7 +8,6 @@ use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::files::safe_name;
 use crate::inputs::Inputs;
-use crate::progress::Joint;
 use crate::results::{Place, Results};
 use crate::say::{self, complain, plural, say};
 use crate::stop::stop_flag;
@@ -80,11 +79,9 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     }
     let stop = stop_flag()?;
     let duration = campaign.scenario(0).map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
-    let joint = Joint::new(runs, duration * runs as f64, args.quiet);
-    let terminal = Terminal::new(&joint, &stop, duration);
+    let terminal = Terminal::new(runs, duration * runs as f64, args.quiet, &stop);
     let shard = run(&campaign, &folder, args.shard, threads, &terminal);
     let failures = terminal.failures();
-    drop(joint);
     tell_failures(&failures);
     let shard = shard?;
     let left = shard.runs - shard.done - shard.before;

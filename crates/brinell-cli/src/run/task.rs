@@ -127,7 +127,8 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
     let files = files(args, loaded, &simulation, folder);
     let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
     // This locks its files: another run into the same folder ends here, before anything is removed.
-    let mut recorder = Recorder::new(&simulation, &*files, &mut progress)?.beside(beside);
+    let mut at = |t| progress.at(t);
+    let mut recorder = Recorder::new(&simulation, &*files, &mut at)?.beside(beside);
     // What a reader needs to make sense of a partial run comes first.
     let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
 

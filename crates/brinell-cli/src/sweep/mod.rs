@@ -20,7 +20,7 @@ use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, keys};
 use brinell_study::campaign::fingerprint;
-use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
+use brinell_study::runner::{JOURNAL, Kept, State, Task, estimate, to_run};
 
 use page::usual;
 use points::{FromSource, Points};
@@ -29,7 +29,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use table::{State, count, states};
+use table::count;
 
 pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
@@ -51,7 +51,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     place.alone()?;
     spare_signals(&points, &work)?;
     make_folder(&folder)?;
-    let header = points.header();
+    let header = points.read.header();
     let words = |other: &Value| other_sweep(&folder, other);
     let mut ledger = campaign::ledger(&folder, &header, args.extend, words)?;
     let tasks = plan(&points, &ledger.kept, &work, threads, !args.quiet);
@@ -59,8 +59,8 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let stop = stop_flag()?;
     let outcome = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
 
-    let states = states(&points, |fingerprint| ledger.kept.row(fingerprint));
-    let doubts = page::doubts(&states);
+    let states = points.read.states(&ledger.kept);
+    let doubts = State::doubts(&states);
     let warnings = [&points.read.warnings[..], &doubts].concat();
     let written = write(args, &points, &states, &plots, &folder, warnings)?;
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(&states, word));
@@ -152,7 +152,8 @@ fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
 
 fn tell_plan(points: &Points, tasks: &[Task], before: usize, work: &FromSource, threads: NonZeroUsize) {
     let axes: Vec<String> = points
-        .plan
+        .read
+        .grid
         .axes()
         .iter()
         .map(|axis| format!("{} ({})", axis.keys().join(" with "), axis.settings().len()))
@@ -216,7 +217,7 @@ fn other_sweep(folder: &Path, other: &Value) -> String {
 fn tell_points(points: &Points, what: &str, reasons: &[(usize, &str)], rest: &str) {
     const SHOWN: usize = 10;
     for (k, reason) in reasons.iter().take(SHOWN) {
-        let settings = points.plan.settings(*k);
+        let settings = points.read.grid.settings(*k);
         let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k}={v}")).collect();
         complain!("point {}{what} ({}): {reason}", k + 1, texts.join(", "));
     }
@@ -255,7 +256,7 @@ fn write(
     let json = json!({
         "brinell": brinell::VERSION,
         "kernel": Kernel::chosen().map_or("", Kernel::name),
-        "plan": points.header()["plan"],
+        "plan": points.read.header()["plan"],
         "warnings": warnings,
         "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },
         "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",

@@ -1,7 +1,7 @@
 //! A sweep as its page shows it: which key lies on the x axis, which points make a line.
 
 use super::points::Points;
-use super::table::{State, count, number};
+use super::table::{count, number};
 use crate::say::{plural, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
@@ -9,7 +9,8 @@ use brinell_report::{
     Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, sweep_lead,
     sweep_legend, value_text, words,
 };
-use brinell_study::campaign::{Axis, of_results};
+use brinell_study::campaign::Axis;
+use brinell_study::runner::State;
 use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, the table is the place.
@@ -35,15 +36,9 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     usual
 }
 
-/// What the results should be warned of: each kind of problem once.
-pub(super) fn doubts(states: &[State]) -> Vec<String> {
-    let of = |(k, state): (usize, &State)| Some((k, state.row()?.warnings.clone()));
-    of_results(states.iter().enumerate().filter_map(of), "point", |k| k + 1)
-}
-
 pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnings: Vec<String>) -> Study {
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
-    let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
+    let axes: Vec<String> = points.read.grid.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
     let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
     let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
     facts.push(fact("Complete", complete, ""));
@@ -54,7 +49,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnin
         facts.push(fact("Not run", missing, "the sweep was interrupted"));
     }
     let (axis, _) = x_axis(points);
-    let lines = states.len() / points.plan.axes()[axis].settings().len();
+    let lines = states.len() / points.read.grid.axes()[axis].settings().len();
     if lines > LINES * PICTURES {
         let text = format!("{} of {lines}", LINES * PICTURES);
         facts.push(Fact::new("Lines drawn", text, "", "all are in sweep.csv"));
@@ -77,7 +72,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnin
 
 fn chapters(points: &Points, states: &[State], plots: &[String], drawn: Vec<IndicatorPlot>) -> Vec<Chapter> {
     let name = |k: usize| {
-        let settings = points.plan.settings(k);
+        let settings = points.read.grid.settings(k);
         let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
         format!("{}: {}", k + 1, texts.join(", "))
     };
@@ -101,7 +96,7 @@ fn chapters(points: &Points, states: &[State], plots: &[String], drawn: Vec<Indi
 
 /// The axis along x: the first one with a key of numbers that takes several values, or else the first.
 fn x_axis(points: &Points) -> (usize, usize) {
-    let axes = points.plan.axes();
+    let axes = points.read.grid.axes();
     for (a, axis) in axes.iter().enumerate() {
         for key in 0..axis.keys().len() {
             let all = axis.settings().iter().all(|s| number(&s[key]).is_some());
@@ -116,15 +111,15 @@ fn x_axis(points: &Points) -> (usize, usize) {
 /// An indicator's pictures: one, or several where there are many lines.
 fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot> {
     let (axis, key) = x_axis(points);
-    let along = &points.plan.axes()[axis];
+    let along = &points.read.grid.axes()[axis];
     let values: Vec<&str> = along.settings().iter().map(|s| s[key].as_str()).collect();
     let numeric: Option<Vec<f64>> = values.iter().map(|v| number(v)).collect();
-    let others: Vec<usize> = (0..points.plan.axes().len()).filter(|a| *a != axis).collect();
+    let others: Vec<usize> = (0..points.read.grid.axes().len()).filter(|a| *a != axis).collect();
     let mut lines: Vec<IndicatorLine> = Vec::new();
     let mut line_of: HashMap<Vec<usize>, usize> = HashMap::new();
     let mut unit = "";
     for (k, state) in states.iter().enumerate() {
-        let place = points.plan.place(k);
+        let place = points.read.grid.place(k);
         let rest: Vec<usize> = others.iter().map(|a| place[*a]).collect();
         let quantity = state.row().and_then(|row| row.quantity(name));
         if let Some(q) = quantity {
@@ -142,7 +137,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
         line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
     }
     let x_key = &along.keys()[key];
-    let legend: Vec<String> = others.iter().map(|a| points.plan.axes()[*a].keys().join(" with ")).collect();
+    let legend: Vec<String> = others.iter().map(|a| points.read.grid.axes()[*a].keys().join(" with ")).collect();
     let parts = lines.chunks(LINES).take(PICTURES).enumerate();
     parts
         .map(|(part, lines)| IndicatorPlot {
@@ -168,7 +163,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
 
 /// An indicator over both keys of a grid; `None` where the sweep has not two axes of three settings or more.
 fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
-    let [first, second] = points.plan.axes() else {
+    let [first, second] = points.read.grid.axes() else {
         return None;
     };
     if first.settings().len().min(second.settings().len()) < GRID {
@@ -185,7 +180,7 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
         let Some(quantity) = state.row().and_then(|row| row.quantity(name)) else {
             continue;
         };
-        let place = points.plan.place(k);
+        let place = points.read.grid.place(k);
         values[place[1 - x] * along.settings().len() + place[x]] = quantity.value.unwrap_or(f64::NAN);
         unit = shown_unit(&quantity.unit);
     }
@@ -212,7 +207,8 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
 /// What a line's points have in common.
 fn label(points: &Points, others: &[usize], rest: &[usize]) -> String {
     let axes = others.iter().zip(rest);
-    let parts: Vec<String> = axes.map(|(axis, k)| points.plan.axes()[*axis].settings()[*k].join(" with ")).collect();
+    let parts: Vec<String> =
+        axes.map(|(axis, k)| points.read.grid.axes()[*axis].settings()[*k].join(" with ")).collect();
     parts.join(", ")
 }
 
@@ -224,7 +220,7 @@ fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
 /// The points with their keys and what is plotted.
 fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let mut columns = vec!["#Point".to_owned()];
-    columns.extend(points.plan.keys().map(|key| format!("#{key}")));
+    columns.extend(points.read.grid.keys().map(|key| format!("#{key}")));
     columns.push("Status".into());
     let unit = |name: &String| {
         let rows = states.iter().filter_map(State::row);
@@ -241,7 +237,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let listed = states.iter().enumerate().take(LISTED);
     let rows = listed.map(|(k, state)| {
         let mut row = vec![(k + 1).to_string()];
-        row.extend(points.plan.settings(k).into_iter().map(|(_, value)| value));
+        row.extend(points.read.grid.settings(k).into_iter().map(|(_, value)| value));
         row.push(state.word().into());
         let cell = |name: &String| {
             let quantity = state.row().and_then(|row| row.quantity(name));

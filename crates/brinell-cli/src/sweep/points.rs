@@ -7,23 +7,21 @@ use crate::files::make_folder;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, run_table};
-use brinell_study::campaign::{Axis, Plan, is_inside};
-use brinell_study::runner::{Make, ReadPoints, Task, Work};
-use serde_json::Value;
+use brinell_study::campaign::{Axis, Grid, is_inside};
+use brinell_study::runner::{GridPoints, Make, Task, Work};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// A sweep before it runs.
 pub(super) struct Points {
     pub(super) source: Source,
-    pub(super) plan: Plan,
-    pub(super) read: ReadPoints,
+    pub(super) read: GridPoints,
     /// The first good point.
     pub(super) example: Scenario,
 }
 
-/// The plan of the command line.
-fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
+/// The grid of the command line.
+fn grid(args: &SweepArgs) -> Result<Grid, Failure> {
     let usage = |option: &str, error: brinell_study::campaign::PlanError| Failure::Usage(format!("{option}: {error}"));
     let vary = args.vary.iter().map(|text| Axis::vary(text).map_err(|e| usage("--vary", e)));
     let together = args.together.iter().map(|text| Axis::together(text).map_err(|e| usage("--together", e)));
@@ -33,32 +31,25 @@ fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
             "nothing varies: give --vary KEY=VALUES, for instance --vary operation.speed_rpm=1000:5000:500".into(),
         ));
     }
-    Plan::new(axes).map_err(|error| usage("the sweep", error))
+    Grid::new(axes).map_err(|error| usage("the sweep", error))
 }
 
 impl Points {
     /// Reads every point. A point that is bad is a row of the table; where all are, the input is.
     pub(super) fn read(args: &SweepArgs, threads: NonZeroUsize) -> Result<Self, Failure> {
-        let plan = plan(args)?;
+        let grid = grid(args)?;
         let source = Source::open(&args.scenario, &args.set)?;
         for (key, value) in source.overrides() {
-            if let Some(varied) = plan.keys().find(|varied| is_inside(key, varied)) {
+            if let Some(varied) = grid.keys().find(|varied| is_inside(key, varied)) {
                 return Err(Failure::Usage(format!(
                     "--set {key}={value}: every point gives {varied} another value; leave out the one or the other"
                 )));
             }
         }
-        let read = ReadPoints::of(&plan, threads, |settings| source.load(settings, true), Failure::on_one_line)?;
+        let read = GridPoints::read(grid, threads, |settings| source.load(settings, true), Failure::on_one_line)?;
         let first_good = read.tasks.iter().position(Result::is_ok).unwrap_or(0);
-        let example = source.load(&plan.settings(first_good), true)?.scenario;
-        Ok(Self { source, plan, read, example })
-    }
-
-    /// What distinguishes this sweep from others: the plan, and the scenarios of its points.
-    pub(super) fn header(&self) -> Value {
-        let tasks = self.read.tasks.iter();
-        let prints = tasks.map(|task| task.as_ref().ok().map(|t| &*t.fingerprint));
-        self.plan.header(prints)
+        let example = source.load(&read.grid.settings(first_good), true)?.scenario;
+        Ok(Self { source, read, example })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::outcome::Outcome;
 use super::runs::{Load, Points, Runs, Unfinished};
-use super::{Plan, Unfit, fit};
+use super::{FitPlan, Unfit, fit};
 use crate::listener::Listener;
 use crate::runner::Ledger;
 use std::num::NonZeroUsize;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// # Errors
 /// Where runs cannot go on, or say nothing. What is finished stays in the ledger's journal.
 pub fn calibrate(
-    plan: &Arc<Plan>,
+    plan: &Arc<FitPlan>,
     load: &Load<'_>,
     ledger: Ledger,
     threads: NonZeroUsize,

@@ -1,27 +1,15 @@
 //! Why there is nothing to fit.
 
-use crate::campaign::{INSIDE, PlanError};
+use crate::campaign::PlanError;
 use brinell::result::UnknownName;
 use brinell::signal::SignalError;
 
 /// What is wrong with keys, targets or a measured signal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
-    /// A text that is no key with bounds, or no target; a bound, value or uncertainty that cannot be.
+    /// A text that is no key with bounds, or no target; a bound, value or uncertainty that cannot be; what comes twice.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// One key with two ranges.
-    #[error("{0} is to be fitted twice; each key has one range")]
-    Twice(String),
-    /// Two keys of which one is part of the other.
-    #[error("{0} and {1} {INSIDE}")]
-    Inside(String, String),
-    /// One target with two values.
-    #[error("{0} is a target twice; each has one value")]
-    TargetTwice(String),
-    /// Nothing to fit.
-    #[error("no key is to be fitted")]
-    NoKey,
     /// Nothing to meet.
     #[error("there is no target")]
     NoTarget,

@@ -3,11 +3,13 @@
 use super::CalibrateError;
 use crate::campaign::{PlanError, assigned, clash, number, syntax};
 use brinell::signal::rounded;
+use serde::Serialize;
 
 /// A key and its bounds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Key {
     /// Dotted path, `bearing.radial_clearance_um`.
+    #[serde(rename = "key")]
     pub name: String,
     /// Lower bound.
     pub low: f64,
@@ -96,13 +98,9 @@ impl Key {
 /// Where they may not.
 pub fn check(keys: &[Key]) -> Result<(), CalibrateError> {
     if keys.is_empty() {
-        return Err(CalibrateError::NoKey);
+        return Err(PlanError::Refused("no key is to be fitted".into()).into());
     }
-    match clash(keys.iter().map(|key| key.name.as_str())) {
-        None => Ok(()),
-        Some([key, again]) if key == again => Err(CalibrateError::Twice(key.into())),
-        Some([first, second]) => Err(CalibrateError::Inside(first.into(), second.into())),
-    }
+    Ok(clash(keys.iter().map(|key| key.name.as_str()), "is to be fitted twice; each key has one range")?)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! [`identify`] takes intervals, correlations, and the directions along which nothing changes. [`signature`] boils a
 //! signal down to levels that can be compared with another's.
 //!
-//! A [`Plan`] says what is fitted to what, a [`Pattern`] what a measured signal adds; [`calibrate()`] makes the runs,
+//! A [`FitPlan`] says what is fitted to what, a [`Pattern`] what a measured signal adds; [`calibrate()`] makes the runs,
 //! and its [`Outcome`] is what they say.
 
 mod calibration;
@@ -38,7 +38,7 @@ pub use outcome::{Found, Met, Open, Outcome};
 #[doc(hidden)]
 pub use pattern::{Measured, Pattern};
 #[doc(hidden)]
-pub use plan::{Plan, bounds, middle};
+pub use plan::{FitPlan, bounds, middle};
 #[doc(hidden)]
 pub use runs::{Load, Points, Unfinished};
 pub use target::{Answer, Target};

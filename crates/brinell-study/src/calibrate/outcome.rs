@@ -1,16 +1,17 @@
 //! What a calibration found, as numbers, as a table of its runs and as JSON.
 
-use super::identify::MOST;
+use super::identify::{Direction, MOST};
 use super::plan::settings;
 use super::runs::{Runs, own_uncertainty};
 use super::target::MISSING;
-use super::{Evaluation, Fit, Key, Plan};
-use crate::campaign::{Beforehand, of_results};
+use super::{Evaluation, Fit, FitPlan, Key};
+use crate::campaign::{Beforehand, in_json, of_results};
 use crate::runner::RunnerError;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 use std::sync::Arc;
 
 /// Significance of a misfit: p-values below are one.
@@ -49,7 +50,7 @@ pub enum Open {
 }
 
 /// A run that meets the targets as well as the best.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rival {
     /// Its number, from 1.
     pub run: usize,
@@ -74,7 +75,7 @@ impl Found {
 }
 
 /// A target against the best run.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Met {
     /// Name of the number.
     pub name: String,
@@ -83,10 +84,18 @@ pub struct Met {
     /// What it is to be.
     pub target: f64,
     /// The target's standard uncertainty.
+    #[serde(rename = "standard_uncertainty")]
     pub uncertainty: f64,
+    /// A run's own standard uncertainty, as it counts.
+    #[serde(rename = "runs_own_standard_uncertainty")]
+    pub of_runs: f64,
+    /// What a residual is in multiples of.
+    #[serde(rename = "weighed_with")]
+    pub sigma: f64,
     /// What the best run has.
     pub value: Option<f64>,
     /// The run's own standard uncertainty.
+    #[serde(rename = "best_runs_own_standard_uncertainty")]
     pub own: f64,
     /// Difference in standard uncertainties.
     pub residual: f64,
@@ -96,7 +105,7 @@ pub struct Met {
 #[derive(Debug)]
 pub struct Outcome {
     /// What was fitted to what.
-    pub plan: Arc<Plan>,
+    pub plan: Arc<FitPlan>,
     /// The search.
     pub fit: Fit,
     /// The keys.
@@ -116,7 +125,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(plan: &Arc<Plan>, runs: &Runs, fit: Fit) -> Result<Self, RunnerError> {
+    pub(super) fn new(plan: &Arc<FitPlan>, runs: &Runs, fit: Fit) -> Result<Self, RunnerError> {
         let place = &fit.evaluations[fit.best].place;
         let row = runs.row(place).ok();
         let compared = plan.targets.iter().enumerate().map(|(t, target)| {
@@ -126,6 +135,8 @@ impl Outcome {
                 unit: quantity.map_or("", |q| if q.unit == "1" { "" } else { &*q.unit }).to_owned(),
                 target: target.value,
                 uncertainty: target.uncertainty,
+                of_runs: fit.own[t],
+                sigma: fit.sigma[t],
                 value: quantity.and_then(|q| q.value),
                 own: quantity.map_or(0.0, own_uncertainty),
                 residual: fit.residuals.get(t).copied().unwrap_or(MISSING),
@@ -245,65 +256,114 @@ impl Outcome {
 
     /// What `calibrate.json` holds; whether the targets are met and what is not determined are given in words.
     pub fn to_json(&self, verdict: &[String], undetermined: &[String]) -> Value {
-        let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
-        let identified = &self.fit.identified;
-        let keys = self.found.iter().enumerate().map(|(k, f)| {
-            let key = &f.key;
+        let Self { fit, plan, found, .. } = self;
+        let identified = &fit.identified;
+        let key = |(k, f): (usize, &Found)| {
             let (low, high) = f.interval.unzip();
-            json!({
-                "key": key.name, "unit": f.unit, "value": f.best, "low": low, "high": high, "range": [key.low, key.high], "log": key.log,
-                "determined": f.is_determined(),
-                "met_as_well_by": match f.open {
-                    Some(Open::Rival(r)) => json!({ "run": r.run, "value": r.value, "chi_square": r.chi_square }),
-                    _ => Value::Null,
-                },
-                "standard_uncertainty_in_ranges": finite(identified.deviations[k]),
-                "difference_over_ranges": 2.0 * self.fit.steps[k],
-            })
-        });
-        let keys: Vec<Value> = keys.collect();
-        let targets = self.compared.iter().zip(&self.fit.own).zip(&self.fit.sigma);
-        let targets: Vec<Value> = targets
-            .map(|((c, own), sigma)| {
-                json!({
-                    "name": c.name, "unit": c.unit, "target": c.target, "standard_uncertainty": c.uncertainty,
-                    "runs_own_standard_uncertainty": own, "weighed_with": sigma,
-                    "value": c.value, "best_runs_own_standard_uncertainty": c.own, "residual": c.residual,
-                })
-            })
-            .collect();
-        let keys_count = self.found.len();
-        let correlation: Vec<Vec<f64>> =
-            (0..keys_count).map(|a| (0..keys_count).map(|b| identified.correlation[(a, b)]).collect()).collect();
-        let directions: Vec<Value> = (identified.directions.iter())
-            .map(|d| {
-                let parts: Map<String, Value> =
-                    (self.found.iter().zip(&d.vector)).map(|(f, v)| (f.key.name.clone(), json!(v))).collect();
-                json!({
-                    "of_ranges": parts, "singular_value": d.singular_value, "noise": d.noise,
-                    "half_interval_95_in_ranges": finite(d.half_width), "determined": d.is_determined(),
-                })
-            })
-            .collect();
-        let failed = self.fit.evaluations.iter().filter(|e| e.answers.is_none()).count();
-        json!({
-            "brinell": brinell::VERSION,
-            "warnings": self.warnings,
-            "plan": self.plan.header(),
-            "budget": self.plan.settings.budget,
-            "runs": { "asked_for": self.fit.evaluations.len(), "failed": failed, "best": self.fit.best + 1, "differences_around": self.fit.centre + 1 },
-            "met": self.is_met(),
-            "chi_square": self.chi_square(),
-            "degrees_of_freedom": identified.freedom,
-            "p_value": self.p_value(),
-            "uncertainties_multiplied_by": identified.inflation,
-            "keys": keys,
-            "targets": targets,
-            "correlation": correlation,
-            "directions": directions,
-            "verdict": verdict,
-            "undetermined": undetermined,
-            "measured": self.plan.pattern.as_ref().map(|p| p.notes.clone()),
+            let met_as_well_by = match f.open {
+                Some(Open::Rival(rival)) => Some(rival),
+                _ => None,
+            };
+            FittedKey {
+                key: f.key.name.clone(),
+                unit: f.unit,
+                value: f.best,
+                low,
+                high,
+                range: [f.key.low, f.key.high],
+                log: f.key.log,
+                determined: f.is_determined(),
+                met_as_well_by,
+                standard_uncertainty_in_ranges: identified.deviations[k],
+                difference_over_ranges: 2.0 * fit.steps[k],
+            }
+        };
+        let direction = |d: &Direction| Combination {
+            of_ranges: found.iter().zip(&d.vector).map(|(f, v)| (f.key.name.clone(), (*v).into())).collect(),
+            singular_value: d.singular_value,
+            noise: d.noise,
+            half_interval_95_in_ranges: d.half_width,
+            determined: d.is_determined(),
+        };
+        in_json(&Calibrated {
+            brinell: brinell::VERSION,
+            warnings: &self.warnings,
+            plan: plan.header(),
+            budget: plan.settings.budget,
+            runs: Counts {
+                asked_for: fit.evaluations.len(),
+                failed: fit.evaluations.iter().filter(|e| e.answers.is_none()).count(),
+                best: fit.best + 1,
+                differences_around: fit.centre + 1,
+            },
+            met: self.is_met(),
+            chi_square: self.chi_square(),
+            degrees_of_freedom: identified.freedom,
+            p_value: self.p_value(),
+            uncertainties_multiplied_by: identified.inflation,
+            keys: found.iter().enumerate().map(key).collect(),
+            targets: &self.compared,
+            correlation: identified.correlation.row_iter().map(|row| row.iter().copied().collect()).collect(),
+            directions: identified.directions.iter().map(direction).collect(),
+            verdict,
+            undetermined,
+            measured: plan.pattern.as_ref().map(|p| &*p.notes),
         })
     }
+}
+
+/// A key in `calibrate.json`.
+#[derive(Serialize)]
+struct FittedKey {
+    key: String,
+    unit: &'static str,
+    value: f64,
+    low: Option<f64>,
+    high: Option<f64>,
+    range: [f64; 2],
+    log: bool,
+    determined: bool,
+    met_as_well_by: Option<Rival>,
+    standard_uncertainty_in_ranges: f64,
+    difference_over_ranges: f64,
+}
+
+/// A direction there.
+#[derive(Serialize)]
+struct Combination {
+    of_ranges: Map<String, Value>,
+    singular_value: f64,
+    noise: f64,
+    half_interval_95_in_ranges: f64,
+    determined: bool,
+}
+
+#[derive(Serialize)]
+struct Counts {
+    asked_for: usize,
+    failed: usize,
+    best: usize,
+    differences_around: usize,
+}
+
+/// `calibrate.json`; what is not finite is null there.
+#[derive(Serialize)]
+struct Calibrated<'a> {
+    brinell: &'a str,
+    warnings: &'a [String],
+    plan: Value,
+    budget: usize,
+    runs: Counts,
+    met: bool,
+    chi_square: f64,
+    degrees_of_freedom: i64,
+    p_value: Option<f64>,
+    uncertainties_multiplied_by: f64,
+    keys: Vec<FittedKey>,
+    targets: &'a [Met],
+    correlation: Vec<Vec<f64>>,
+    directions: Vec<Combination>,
+    verdict: &'a [String],
+    undetermined: &'a [String],
+    measured: Option<&'a [String]>,
 }

@@ -3,18 +3,19 @@
 use super::fit::least_budget;
 use super::target::check;
 use super::{CalibrateError, Key, Pattern, Settings, Target};
-use crate::campaign::fingerprint;
+use crate::campaign::{fingerprint, in_json};
 use brinell::document::Loaded;
 use brinell::result::{can_be_negative, check_name, listed};
 use brinell::simulate::Simulation;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
 /// Runs for each key where no budget is given.
 const RUNS_PER_KEY: usize = 30;
 
 /// A calibration before it runs.
 #[derive(Debug)]
-pub struct Plan {
+pub struct FitPlan {
     /// What is fitted.
     pub keys: Vec<Key>,
     /// Unit of each key.
@@ -51,7 +52,7 @@ pub fn middle(keys: &[Key]) -> Vec<(String, String)> {
     settings(keys, &vec![0.5; keys.len()])
 }
 
-impl Plan {
+impl FitPlan {
     /// Of keys that may be fitted together; `middle` is the scenario of [`middle`]'s settings, and `simulation` is its.
     ///
     /// # Errors
@@ -98,17 +99,15 @@ impl Plan {
 
     /// What distinguishes this calibration from others. A larger budget resumes the same one.
     pub fn header(&self) -> Value {
-        let keys: Vec<Value> =
-            (self.keys.iter()).map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log })).collect();
-        let targets: Vec<Value> = (self.targets.iter())
-            .map(|t| json!({ "name": t.name, "value": t.value, "standard_uncertainty": t.uncertainty }))
-            .collect();
-        json!({
-            "campaign": "calibrate",
-            "keys": keys,
-            "targets": targets,
-            "seed": self.settings.seed,
-            "scenario": fingerprint(&self.middle.scenario),
-        })
+        #[derive(Serialize)]
+        struct Head<'a> {
+            campaign: &'a str,
+            keys: &'a [Key],
+            targets: &'a [Target],
+            seed: u64,
+            scenario: String,
+        }
+        let (keys, targets, scenario) = (&self.keys, &self.targets, fingerprint(&self.middle.scenario));
+        in_json(&Head { campaign: "calibrate", keys, targets, seed: self.settings.seed, scenario })
     }
 }

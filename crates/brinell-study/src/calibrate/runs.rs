@@ -3,7 +3,7 @@
 use super::fit::start_size;
 use super::plan::settings;
 use super::search::latin_hypercube;
-use super::{Answer, Pattern, Plan, Target, Unfit};
+use super::{Answer, FitPlan, Pattern, Target, Unfit};
 use crate::campaign::{Row, digest, fingerprint};
 use crate::listener::Listener;
 use crate::runner::{Beside, Ledger, RunnerError, Task, Work, run};
@@ -38,7 +38,7 @@ pub struct Points<'a> {
     /// The scenario.
     pub load: &'a Load<'a>,
     /// What is fitted.
-    pub plan: &'a Plan,
+    pub plan: &'a FitPlan,
 }
 
 impl Points<'_> {

@@ -2,15 +2,17 @@
 
 use super::CalibrateError;
 use crate::campaign::{PlanError, number, syntax};
+use serde::Serialize;
 
 /// A number to be met.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Target {
     /// Name of a number of a run: `sensor_ax.rms`.
     pub name: String,
     /// What it is to be, in that number's unit.
     pub value: f64,
     /// Standard uncertainty (one sigma), above 0.
+    #[serde(rename = "standard_uncertainty")]
     pub uncertainty: f64,
 }
 
@@ -81,7 +83,7 @@ pub(super) fn check(targets: &[Target]) -> Result<(), CalibrateError> {
     }
     for (k, target) in targets.iter().enumerate() {
         if targets[..k].iter().any(|other| other.name == target.name) {
-            return Err(CalibrateError::TargetTwice(target.name.clone()));
+            return Err(PlanError::Refused(format!("{} is a target twice; each has one value", target.name)).into());
         }
     }
     Ok(())

@@ -3,10 +3,11 @@
 
 use super::error::{MOST_POINTS, PlanError};
 use brinell::document::reading::text_in_unit_of;
+use serde::Serialize;
 use std::collections::HashSet;
 
 /// Settings that are tried one after the other.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Axis {
     keys: Vec<String>,
     /// Setting after setting, a value for each key: TOML, a bare word being a string; quantities as numbers in the
@@ -46,11 +47,12 @@ impl Axis {
         }
         let length = first.1.len();
         if let Some(other) = others.iter().find(|other| other.1.len() != length) {
-            return Err(PlanError::Keys {
-                first: first.0.clone(),
-                second: other.0.clone(),
-                why: format!("have {length} and {} values; keys that vary together have equally many", other.1.len()),
-            });
+            return Err(PlanError::Refused(format!(
+                "{} and {} have {length} and {} values; keys that vary together have equally many",
+                first.0,
+                other.0,
+                other.1.len()
+            )));
         }
         let settings = (0..length).map(|k| parts.iter().map(|part| part.1[k].clone()).collect()).collect();
         Self::new(parts.iter().map(|part| part.0.clone()).collect(), settings)
@@ -104,7 +106,7 @@ impl Axis {
 }
 
 pub(crate) fn syntax(text: &str, expected: &str) -> PlanError {
-    PlanError::Syntax { text: text.trim().into(), expected: expected.into() }
+    PlanError::Refused(format!("`{}`: expected {expected}", text.trim()))
 }
 
 /// A key and what is behind its equals sign.

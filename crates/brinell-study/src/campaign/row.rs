@@ -3,7 +3,8 @@
 use brinell::result::{Quantity, by_name, named};
 use brinell::scenario::Scenario;
 use brinell_io::hexadecimal;
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
 /// A point that is done.
@@ -32,41 +33,52 @@ pub fn digest(text: &str) -> String {
     hexadecimal(&Sha256::digest(text.as_bytes()))
 }
 
+/// A row as its journal has it.
+#[derive(Serialize, Deserialize)]
+struct Line {
+    settings: Map<String, Value>,
+    scenario: String,
+    brinell: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    values: Option<Map<String, Value>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    failed: Option<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
+}
+
+/// As JSON.
+pub(crate) fn in_json(of: &impl Serialize) -> Value {
+    serde_json::to_value(of).unwrap_or_default()
+}
+
+/// Key and value of what is set, as one JSON object.
+pub(crate) fn settings_json(settings: &[(String, String)]) -> Map<String, Value> {
+    settings.iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect()
+}
+
 impl Row {
     /// As one JSON object. Numbers come back bit for bit from a parser that rounds correctly.
     pub fn to_json(&self) -> Value {
-        let settings: Map<String, Value> =
-            self.settings.iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
-        let mut object = json!({
-            "settings": settings, "scenario": self.scenario, "brinell": self.version,
-        });
-        match &self.result {
-            Ok(quantities) => object["values"] = by_name(quantities).into(),
-            Err(reason) => object["failed"] = reason.as_str().into(),
-        }
-        if !self.warnings.is_empty() {
-            object["warnings"] = self.warnings.as_slice().into();
-        }
-        object
+        in_json(&Line {
+            settings: settings_json(&self.settings),
+            scenario: self.scenario.clone(),
+            brinell: self.version.clone(),
+            values: self.result.as_ref().ok().map(|numbers| by_name(numbers)),
+            failed: self.result.as_ref().err().cloned(),
+            warnings: self.warnings.clone(),
+        })
     }
 
     /// From what [`Row::to_json`] gave; `None` where it is not that.
     pub fn from_json(value: &Value) -> Option<Row> {
-        let text = |key: &str| Some(value.get(key)?.as_str()?.to_owned());
-        let settings = value.get("settings")?.as_object()?.iter();
-        let settings = settings.map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned())));
-        let result = match value.get("failed") {
-            Some(reason) => Err(reason.as_str()?.to_owned()),
-            None => Ok(named(value.get("values")?.as_object()?)?),
+        let Line { settings, scenario, brinell: version, values, failed, warnings } = Line::deserialize(value).ok()?;
+        let settings = settings.iter().map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned())));
+        let result = match failed {
+            Some(reason) => Err(reason),
+            None => Ok(named(&values?)?),
         };
-        let warnings = value.get("warnings").and_then(Value::as_array).into_iter().flatten();
-        Some(Row {
-            warnings: warnings.map(|words| Some(words.as_str()?.to_owned())).collect::<Option<_>>()?,
-            settings: settings.collect::<Option<_>>()?,
-            scenario: text("scenario")?,
-            version: text("brinell")?,
-            result,
-        })
+        Some(Row { settings: settings.collect::<Option<_>>()?, scenario, version, result, warnings })
     }
 
     /// A number of the row by its name.

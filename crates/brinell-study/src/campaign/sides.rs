@@ -2,12 +2,12 @@
 //! run; and what runs may be called there.
 
 use super::Compared;
+use super::row::in_json;
 use brinell::document::{Loaded, Provenance};
-use brinell::result::Quantity;
 use brinell::signal::Written;
-use brinell::signal::ratio::Ratio;
 use brinell_io::{Cells, Column, Table};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// Runs that a page can show in distinct colours.
 const MOST: usize = 6;
@@ -140,34 +140,48 @@ pub fn sides_scenarios(sides: &[Side]) -> Map<String, Value> {
     sides.iter().map(one).collect()
 }
 
+/// One number of all runs, by their labels.
+#[derive(Serialize)]
+struct Number<'a> {
+    unit: &'a str,
+    runs: Map<String, Value>,
+    ratios: Map<String, Value>,
+}
+
+#[derive(Serialize)]
+struct Comparison<'a> {
+    brinell: &'a str,
+    baseline: Option<&'a str>,
+    warnings: &'a [String],
+    interval: &'a str,
+    ratio: &'a str,
+    interval_of_a_ratio: &'a str,
+    quantities: Map<String, Value>,
+    scenarios: Map<String, Value>,
+}
+
 /// What `compare.json` holds; `warnings` are what its reader should know.
 pub fn sides_json(sides: &[Side], compared: &[Compared], warnings: &[String]) -> Value {
-    let value = |q: &Quantity| json!(Written::new(q.value, q.interval()));
-    let ratio = |r: &Ratio| json!(r);
     let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
         let pairs = sides.iter().enumerate();
         pairs.filter_map(|(k, side)| Some((side.label.clone(), of(k)?))).collect()
     };
-    let quantities: Map<String, Value> = compared
-        .iter()
-        .map(|c| {
-            let entry = json!({
-                "unit": c.unit,
-                "runs": by_label(&|k| c.of[k].as_ref().map(value)),
-                "ratios": by_label(&|k| c.ratios[k].as_ref().map(ratio)),
-            });
-            (c.name.clone(), entry)
+    let number = |c: &Compared| {
+        in_json(&Number {
+            unit: &c.unit,
+            runs: by_label(&|k| c.of[k].as_ref().map(|q| in_json(&Written::new(q.value, q.interval())))),
+            ratios: by_label(&|k| c.ratios[k].as_ref().map(in_json)),
         })
-        .collect();
-    json!({
-        "brinell": brinell::VERSION,
-        "baseline": sides.first().map(|side| &side.label),
-        "warnings": warnings,
-        "interval": "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",
-        "ratio": "of the value to the baseline's",
-        "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
-                                supposes runs that scatter independently",
-        "quantities": quantities,
-        "scenarios": sides_scenarios(sides),
+    };
+    in_json(&Comparison {
+        brinell: brinell::VERSION,
+        baseline: sides.first().map(|side| &*side.label),
+        warnings,
+        interval: "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",
+        ratio: "of the value to the baseline's",
+        interval_of_a_ratio: "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
+                              supposes runs that scatter independently",
+        quantities: compared.iter().map(|c| (c.name.clone(), number(c))).collect(),
+        scenarios: sides_scenarios(sides),
     })
 }

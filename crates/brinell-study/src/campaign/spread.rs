@@ -3,12 +3,14 @@
 //! The band of a number takes its changes for independent: the logarithms of what each value does to it, up and down apart, added as squares.
 //! It is no confidence interval: the ends of the ranges are judgement, not statistics.
 
+use crate::campaign::row::in_json;
 use brinell::document::Provenance;
 use brinell::many;
 use brinell::result::{Quantity, can_be_negative, simulate_with};
 use brinell::scenario::Scenario;
 use brinell::simulate::Progress;
-use serde_json::{Value, json};
+use serde::{Serialize, Serializer};
+use serde_json::Value;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,7 +19,7 @@ pub const SPREAD_MEANING: &str = "value, and low to high, the band of what is as
                                   time, their changes added as squares of logarithms; no confidence interval";
 
 /// An assumed value and where it may lie.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Assumed {
     /// Path of its key.
     pub key: String,
@@ -26,6 +28,7 @@ pub struct Assumed {
     /// The value, and both ends.
     pub value: f64,
     /// Both ends; one may be the value.
+    #[serde(flatten, serialize_with = "low_high")]
     pub ends: [f64; 2],
 }
 
@@ -39,16 +42,17 @@ pub fn assumed(provenance: &[Provenance]) -> Vec<Assumed> {
 }
 
 /// One number at both ends of one assumed value; `None` where a run there has no such number.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bar {
     /// Path of the key.
     pub key: String,
     /// The number at the low and at the high end.
+    #[serde(flatten, serialize_with = "at_low_high")]
     pub at: [Option<f64>; 2],
 }
 
 /// One number of a run, with what every assumed value does to it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Level {
     /// What it is.
     pub name: String,
@@ -57,9 +61,19 @@ pub struct Level {
     /// As the scenario has it.
     pub value: f64,
     /// The band.
+    #[serde(flatten, serialize_with = "low_high")]
     pub band: [f64; 2],
     /// Of each assumed value that changes it, what changes it most first: the tornado.
+    #[serde(rename = "by")]
     pub bars: Vec<Bar>,
+}
+
+fn low_high<S: Serializer>(ends: &[f64; 2], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map([("low", ends[0]), ("high", ends[1])])
+}
+
+fn at_low_high<S: Serializer>(ends: &[Option<f64>; 2], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map([("at_low", ends[0]), ("at_high", ends[1])])
 }
 
 /// The numbers of the run at both ends of each assumed value; the reason where there are none.
@@ -168,33 +182,37 @@ pub fn ratios(keys: &[Assumed], [of, to]: [&[Quantity]; 2], [of_ends, to_ends]: 
     told(of).filter_map(ratio).collect()
 }
 
+/// A run at an end that failed.
+#[derive(Serialize)]
+struct Failed<'a> {
+    at: f64,
+    why: &'a str,
+}
+
+/// A value that was moved.
+#[derive(Serialize)]
+struct Moved<'a> {
+    #[serde(flatten)]
+    key: &'a Assumed,
+    failed: Vec<Failed<'a>>,
+}
+
+#[derive(Serialize)]
+struct Written<'a> {
+    meaning: &'a str,
+    assumed: Vec<Moved<'a>>,
+    levels: &'a [Level],
+}
+
 impl Spread {
     /// As JSON: the keys with their ends and the reason of each run that failed, and the numbers with band and bars.
     pub fn to_json(&self) -> Value {
-        let key = |(key, pair): (&Assumed, &[Result<_, String>; 2])| {
-            let failed: Vec<Value> = (pair.iter().zip(key.ends))
-                .filter_map(|(run, end)| Some(json!({ "at": end, "why": run.as_ref().err()? })))
-                .collect();
-            json!({ "key": key.key, "unit": key.unit, "value": key.value, "low": key.ends[0], "high": key.ends[1], "failed": failed })
-        };
-        json!({
-            "meaning": SPREAD_MEANING,
-            "assumed": self.keys.iter().zip(&self.ends).map(key).collect::<Vec<_>>(),
-            "levels": levels_json(&self.levels),
-        })
+        let moved = self.keys.iter().zip(&self.ends).map(|(key, pair)| {
+            let ends = pair.iter().zip(key.ends);
+            Moved { key, failed: ends.filter_map(|(run, at)| Some(Failed { at, why: run.as_ref().err()? })).collect() }
+        });
+        in_json(&Written { meaning: SPREAD_MEANING, assumed: moved.collect(), levels: &self.levels })
     }
-}
-
-/// Numbers with bands and bars.
-pub fn levels_json(levels: &[Level]) -> Value {
-    let level = |level: &Level| {
-        let bar = |bar: &Bar| json!({ "key": bar.key, "at_low": bar.at[0], "at_high": bar.at[1] });
-        json!({
-            "name": level.name, "unit": level.unit, "value": level.value, "low": level.band[0], "high": level.band[1],
-            "by": level.bars.iter().map(bar).collect::<Vec<_>>(),
-        })
-    };
-    levels.iter().map(level).collect()
 }
 
 #[cfg(test)]

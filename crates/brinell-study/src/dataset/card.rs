@@ -2,9 +2,11 @@
 //! that read MLCommons' Croissant.
 
 use crate::campaign::digest;
+use crate::dataset::about::{About, ColumnOf, Facts, Runs, Split, Sum};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
 use crate::dataset::tally::Tally;
+use crate::design::Part;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -13,32 +15,27 @@ use std::path::Path;
 const KNOWN_LICENCES: [&str; 8] =
     ["cc0-1.0", "cc-by-4.0", "cc-by-sa-4.0", "cc-by-nc-4.0", "cc-by-nc-sa-4.0", "mit", "apache-2.0", "odbl"];
 
+/// The words of the format, as its specification gives them.
+const CONTEXT: &str = include_str!("croissant.context.json");
+
 /// The file that tools read.
 pub(crate) const CROISSANT: &str = "croissant.json";
 
 /// Writes both, and gives what `dataset.json` says of the one that is nobody's to change. A README.md that is there
 /// stays: its author may have gone on with it.
-pub(crate) fn write(folder: &Path, about: &Value) -> Result<Value, DatasetError> {
+pub(crate) fn write(folder: &Path, about: &About) -> Result<Sum, DatasetError> {
     let readme = folder.join("README.md");
     if !readme.exists() {
         put(&readme, &card(about))?;
     }
     let text = written(&croissant(about));
     put(&folder.join(CROISSANT), &text)?;
-    Ok(json!({ "path": CROISSANT, "sha256": digest(&text) }))
-}
-
-fn text<'a>(value: &'a Value, key: &str) -> &'a str {
-    value[key].as_str().unwrap_or("")
+    Ok(Sum { path: CROISSANT.into(), sha256: digest(&text) })
 }
 
 /// A name on one line: neither a table nor a heading has another.
 fn one_line(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn list<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> {
-    value[key].as_array().into_iter().flatten()
 }
 
 /// Name of a split where names are letters, digits and `_`. Data that are not divided are called `train` there.
@@ -50,69 +47,75 @@ fn split_name(split: &str) -> String {
 }
 
 /// Paths of the files of each split.
-fn paths(about: &Value) -> Vec<(String, Vec<&str>)> {
+fn paths(about: &About) -> Vec<(String, Vec<&str>)> {
     let mut splits: Vec<(String, Vec<&str>)> = Vec::new();
-    for file in list(about, "files") {
-        let split = split_name(text(file, "split"));
+    for file in about.listed() {
+        let split = split_name(file.split.as_deref().unwrap_or_default());
         match splits.last_mut() {
-            Some((last, paths)) if *last == split => paths.push(text(file, "path")),
-            _ => splits.push((split, vec![text(file, "path")])),
+            Some((last, paths)) if *last == split => paths.push(&file.path),
+            _ => splits.push((split, vec![&file.path])),
         }
     }
     splits
 }
 
-fn description(about: &Value) -> String {
+/// Runs that are complete, and failed ones.
+fn runs(about: &About) -> (u64, u64) {
+    match about.runs {
+        Runs::Made { complete, failed, .. } => (complete, failed),
+        _ => (0, 0),
+    }
+}
+
+fn description(about: &About) -> String {
     format!(
         "Vibration signals of {} runs of rolling bearings, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
          with labels and ground truth.",
-        about["runs"]["complete"],
-        text(about, "brinell")
+        runs(about).0,
+        about.brinell
     )
 }
 
 /// How many runs have signals, by class and by split; and what the user should know of others.
-fn counts(about: &Value) -> String {
-    let number = |value: &Value| value.as_u64().unwrap_or(0);
-    let tally = Tally::of_splits(about);
-    let fails = number(&about["runs"]["failed"]) > 0;
+fn counts(about: &About) -> String {
+    let mut tally = Tally::default();
+    // Classes by split; of runs whose labels are held out nothing is said.
+    let open: Vec<&Split> = about.splits.iter().filter(|split| split.runs_of_classes.is_some()).collect();
+    open.iter().for_each(|split| tally.join(Some(&split.tally())));
+    let fails = runs(about).1 > 0;
     let failed = |count: u64| if fails { format!(" {count} |") } else { String::new() };
     let (head, rule) = if fails { (" failed, no signal |", " --- |") } else { ("", "") };
-    // Classes by split; of runs whose labels are held out nothing is said.
-    let open = || list(about, "splits").filter(|split| split["runs_of_classes"].is_array());
-    let heads: String = open().map(|split| format!(" {} |", split_name(text(split, "name")))).collect();
-    let mut card = format!("| class | label |{heads}{head}\n| --- | --- |{}{rule}\n", " --- |".repeat(open().count()));
-    for (k, class) in list(about, "classes").enumerate() {
-        let good = |split: &Value| number(&split["runs_of_classes"][k]) - number(&split["failed_of_classes"][k]);
-        let runs: String = open().map(|split| format!(" {} |", good(split))).collect();
-        let name = one_line(text(class, "name")).replace('|', "\\|");
-        let failed = failed(tally.0[1].get(k).copied().unwrap_or(0));
-        card += &format!("| {name} | {} |{runs}{failed}\n", class["label"]);
+    let heads: String = open.iter().map(|split| format!(" {} |", split_name(&split.name))).collect();
+    let mut card = format!("| class | label |{heads}{head}\n| --- | --- |{}{rule}\n", " --- |".repeat(open.len()));
+    let at = |counts: &[u64], k: usize| counts.get(k).copied().unwrap_or(0);
+    for (k, class) in about.classes.iter().enumerate() {
+        let good = |split: &Tally| at(&split.runs, k) - at(&split.failed, k);
+        let runs: String = open.iter().map(|split| format!(" {} |", good(&split.tally()))).collect();
+        let name = one_line(&class.name).replace('|', "\\|");
+        card += &format!("| {name} | {} |{runs}{}\n", class.label, failed(at(&tally.failed, k)));
     }
     card += &format!("\n| split | runs |{head}\n| --- | --- |{rule}\n");
-    for split in list(about, "splits") {
-        let without = number(&split["failed"]);
-        let (name, good) = (split_name(text(split, "name")), number(&split["runs"]) - without);
-        card += &format!("| {name} | {good} |{}\n", failed(without));
+    for split in &about.splits {
+        let without = split.failed.unwrap_or(0);
+        card += &format!("| {} | {} |{}\n", split_name(&split.name), split.runs - without, failed(without));
     }
-    let names: Vec<String> = list(about, "classes").map(|class| one_line(text(class, "name"))).collect();
+    let names: Vec<String> = about.classes.iter().map(|class| one_line(&class.name)).collect();
     for words in tally.words(&names) {
         card += &format!("\n{words}.\n");
     }
     card
 }
 
-fn card(about: &Value) -> String {
+fn card(about: &About) -> String {
     let quoted = |text: &str| Value::from(text).to_string();
-    let runs = about["runs"]["total"].as_u64().unwrap_or(0);
-    let size = match runs {
+    let size = match about.total() {
         0..1000 => "n<1K",
         1000..10_000 => "1K<n<10K",
         10_000..100_000 => "10K<n<100K",
         _ => "100K<n<1M",
     };
-    let mut card = format!("---\npretty_name: {}\n", quoted(text(about, "name")));
-    let licence = text(about, "licence");
+    let mut card = format!("---\npretty_name: {}\n", quoted(&about.name));
+    let licence = about.licence.as_deref().unwrap_or_default();
     let small = licence.to_lowercase();
     // Strings that were written to a String cannot fail.
     let _ = match KNOWN_LICENCES.contains(&small.as_str()) {
@@ -130,39 +133,36 @@ fn card(about: &Value) -> String {
             let _ = writeln!(card, "    - {}", quoted(path));
         }
     }
-    let _ = write!(card, "---\n\n# {}\n\n{}\n\n", one_line(text(about, "name")), description(about));
+    let _ = write!(card, "---\n\n# {}\n\n{}\n\n", one_line(&about.name), description(about));
     card += &counts(about);
-    let signals: Vec<String> = list(about, "columns")
-        .filter(|c| text(c, "type") == "list<float>")
-        .map(|c| format!("`{}` ({})", text(c, "name"), text(c, "unit")))
-        .collect();
+    let signals = about.columns.iter().filter(|c| c.is_signal());
+    let signals: Vec<String> = signals.map(|c| format!("`{}` ({})", c.name, c.unit)).collect();
     let _ = write!(
         card,
         "\nOne row is one run. Signals: {}; sample k is at k / `sample_rate_hz`. `dataset.json` lists every column with its unit and meaning, the bearing's \
          geometry, and what was assumed.\n\n```python\nfrom datasets import load_dataset\nruns = load_dataset(\"path/to/this/folder\")\n```\n",
         signals.join(", ")
     );
-    if list(about, "splits").any(|split| text(split, "name") == "held-out") {
+    if about.splits.iter().any(|split| split.name == Part::HeldOut.word()) {
         card += "\nThe labels of the split `held_out` are not published. Its runs have signals, speed and load.\n";
     }
     card
 }
 
 /// The data set as JSON-LD, by the Croissant format specification 1.0 (MLCommons, 2024).
-fn croissant(about: &Value) -> Value {
-    let name = text(about, "name");
-    let file = |file: &Value| {
+fn croissant(about: &About) -> Value {
+    let file = |file: &Facts| {
         json!({
-            "@type": "cr:FileObject", "@id": file["path"], "name": file["path"], "contentUrl": file["path"],
-            "contentSize": format!("{} B", file["bytes"]), "encodingFormat": "application/x-parquet", "sha256": file["sha256"],
+            "@type": "cr:FileObject", "@id": file.path, "name": file.path, "contentUrl": file.path,
+            "contentSize": format!("{} B", file.bytes), "encodingFormat": "application/x-parquet", "sha256": file.sha256,
         })
     };
-    let mut distribution: Vec<Value> = list(about, "files").map(file).collect();
+    let mut distribution: Vec<Value> = about.listed().iter().map(file).collect();
     distribution.push(json!({
         "@type": "cr:FileSet", "@id": "runs", "name": "runs", "encodingFormat": "application/x-parquet", "includes": "runs/*.parquet",
     }));
-    let field = |column: &Value| {
-        let kind = text(column, "type");
+    let field = |column: &ColumnOf| {
+        let kind = &*column.kind;
         let inner = kind.strip_prefix("list<").and_then(|k| k.strip_suffix('>'));
         let data_type = match inner.unwrap_or(kind) {
             "bool" => "sc:Boolean",
@@ -171,9 +171,9 @@ fn croissant(about: &Value) -> Value {
             _ => "sc:Text",
         };
         let mut field = json!({
-            "@type": "cr:Field", "@id": format!("run/{}", text(column, "name")), "name": column["name"],
-            "description": format!("{} ({})", text(column, "description"), text(column, "unit")), "dataType": data_type,
-            "source": { "fileSet": { "@id": "runs" }, "extract": { "column": column["name"] } },
+            "@type": "cr:Field", "@id": format!("run/{}", column.name), "name": column.name,
+            "description": format!("{} ({})", column.description, column.unit), "dataType": data_type,
+            "source": { "fileSet": { "@id": "runs" }, "extract": { "column": column.name } },
         });
         if inner.is_some() {
             field["repeated"] = true.into();
@@ -182,18 +182,18 @@ fn croissant(about: &Value) -> Value {
     };
     let mut all = Map::new();
     for (key, value) in [
-        ("@context", context()),
+        ("@context", serde_json::from_str(CONTEXT).unwrap_or_default()),
         ("@type", "sc:Dataset".into()),
         ("conformsTo", "http://mlcommons.org/croissant/1.0".into()),
-        ("name", name.into()),
+        ("name", about.name.as_str().into()),
         ("description", description(about).into()),
-        ("license", about["licence"].clone()),
+        ("license", about.licence.as_deref().into()),
         ("distribution", distribution.into()),
         (
             "recordSet",
             json!([{
                 "@type": "cr:RecordSet", "@id": "run", "name": "run",
-                "field": list(about, "columns").map(field).collect::<Vec<_>>(),
+                "field": about.columns.iter().map(field).collect::<Vec<_>>(),
             }]),
         ),
     ] {
@@ -202,46 +202,4 @@ fn croissant(about: &Value) -> Value {
         }
     }
     all.into()
-}
-
-/// The words of the format, as its specification gives them.
-fn context() -> Value {
-    json!({
-        "@language": "en",
-        "@vocab": "https://schema.org/",
-        "sc": "https://schema.org/",
-        "cr": "http://mlcommons.org/croissant/",
-        "rai": "http://mlcommons.org/croissant/RAI/",
-        "dct": "http://purl.org/dc/terms/",
-        "equivalentProperty": "cr:equivalentProperty",
-        "samplingRate": "cr:samplingRate",
-        "conformsTo": "dct:conformsTo",
-        "citeAs": "cr:citeAs",
-        "column": "cr:column",
-        "data": { "@id": "cr:data", "@type": "@json" },
-        "dataType": { "@id": "cr:dataType", "@type": "@vocab" },
-        "examples": { "@id": "cr:examples", "@type": "@json" },
-        "extract": "cr:extract",
-        "field": "cr:field",
-        "fileObject": "cr:fileObject",
-        "fileProperty": "cr:fileProperty",
-        "fileSet": "cr:fileSet",
-        "format": "cr:format",
-        "includes": "cr:includes",
-        "isLiveDataset": "cr:isLiveDataset",
-        "jsonPath": "cr:jsonPath",
-        "key": "cr:key",
-        "md5": "cr:md5",
-        "parentField": "cr:parentField",
-        "path": "cr:path",
-        "recordSet": "cr:recordSet",
-        "references": "cr:references",
-        "regex": "cr:regex",
-        "repeated": "cr:repeated",
-        "replace": "cr:replace",
-        "separator": "cr:separator",
-        "source": "cr:source",
-        "subField": "cr:subField",
-        "transform": "cr:transform",
-    })
 }

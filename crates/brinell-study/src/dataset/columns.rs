@@ -92,13 +92,18 @@ impl DataColumn {
 type Fixed = (&'static str, &'static str, &'static str, Source);
 
 /// Place of `status` in a row.
-pub(crate) const STATUS: usize = 2;
+const STATUS: usize = 2;
 /// Column of a run's class, as a number.
 pub(crate) const LABEL: &str = "label";
 /// Column of a run's clipped samples.
 pub(crate) const CLIPPED: &str = "clipped_samples";
 /// Column of what a run's result warns of.
 pub(crate) const WARNINGS: &str = "warnings";
+
+/// Whether a row's file of its own says that the run failed.
+pub(crate) fn is_failed(cells: &[Cell]) -> bool {
+    cells.get(STATUS) == Some(&Cell::Words("failed".into()))
+}
 
 /// Before the signals: what a run is.
 #[rustfmt::skip]
@@ -115,7 +120,7 @@ const KNOWN: [Fixed; 12] = [
     ("sample_rate_hz", "Hz", "samples a second of the signals", Number(|r| Some(r.scenario()?.simulation.sample_rate_hz))),
     ("duration_s", "s", "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
         Number(|r| Some(r.scenario()?.simulation.duration_s))),
-    ("analysed_from_s", "s", "the load has its full size and the start is over from here on: forces and slip of the ground truth count from here", Number(|r| r.gathered()?.from)),
+    ("analysed_from_s", "s", "the load has its full size and the start is over from here on: forces and slip of the ground truth count from here", Number(|r| (r.gathered()?.samples > 0).then_some(r.findings()?.from))),
     ("bearing", "1", "catalogue name, where one was given", Words(|r| r.scenario()?.bearing.preset.clone())),
     ("rows", "1", "rows of rollers", Whole(|r| Some(r.scenario()?.bearing.rows))),
     ("rollers_per_row", "1", "rollers of a row", Whole(|r| Some(r.scenario()?.bearing.rollers_per_row))),

@@ -1,9 +1,12 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
-use crate::campaign::other_kernel;
+use crate::campaign::{digest, other_kernel};
+use crate::dataset::about::{About, ColumnOf, Facts, Held, PartFacts};
 use crate::dataset::error::DatasetError;
-use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
-use serde_json::{Value, json};
+use brinell_io::{IoError, RecordFacts, atomic_write, lock, record_facts, sha256_of};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::fs::{File, OpenOptions};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -68,11 +71,11 @@ impl Folder {
     ///
     /// # Errors
     /// Where it holds another campaign, or one of another version.
-    pub(crate) fn claim(&self, mine: &Value) -> Result<(), DatasetError> {
+    pub(crate) fn claim(&self, mine: &About) -> Result<(), DatasetError> {
         for folder in ["runs", "work"] {
             make(&self.root.join(folder))?;
         }
-        if mine["held_out"] == true {
+        if mine.held_out == Some(Held::Planned(true)) {
             make(&self.root.join("held_out"))?;
         }
         // Many shards may begin at once: whoever is first writes.
@@ -94,12 +97,18 @@ impl Folder {
         )))
     }
 
-    /// `dataset.json`; null where it cannot be read, as before the data set is finished.
-    pub(crate) fn described(&self) -> Result<Value, DatasetError> {
+    /// `dataset.json`, and whether it is as it was written; `None` where it cannot be read, as before the data set is
+    /// finished.
+    pub(crate) fn described(&self) -> Result<Option<(About, bool)>, DatasetError> {
         let path = self.sidecar();
-        std::fs::read(&path).map_or(Ok(Value::Null), |bytes| {
-            serde_json::from_slice(&bytes).map_err(|error| self.unreadable(&path, &error))
-        })
+        let Ok(bytes) = std::fs::read(&path) else {
+            return Ok(None);
+        };
+        let mut all: Value = self.parsed(&path, &bytes)?;
+        let stated = all.as_object_mut().and_then(|all| all.shift_remove(CHECKSUM));
+        let is_whole = stated.is_some_and(|stated| stated["sha256"] == digest(&written(&all)));
+        let made = About::deserialize(all).map_err(|error| self.unreadable(&path, &error))?;
+        Ok(Some((made, is_whole)))
     }
 
     /// That nothing here tells of a data set.
@@ -111,7 +120,7 @@ impl Folder {
     }
 
     /// What the folder says of its campaign; `None` where it has none yet.
-    pub(crate) fn about(&self) -> Result<Option<Value>, DatasetError> {
+    pub(crate) fn about(&self) -> Result<Option<About>, DatasetError> {
         let path = self.campaign();
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
@@ -119,7 +128,11 @@ impl Folder {
             Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(None),
             Err(error) => return Err(DatasetError::Read { path, error }),
         };
-        serde_json::from_slice(&bytes).map(Some).map_err(|error| self.unreadable(&path, &error))
+        self.parsed(&path, &bytes).map(Some)
+    }
+
+    fn parsed<T: DeserializeOwned>(&self, path: &Path, bytes: &[u8]) -> Result<T, DatasetError> {
+        serde_json::from_slice(bytes).map_err(|error| self.unreadable(path, &error))
     }
 
     /// That a description is no JSON, and what mends it.
@@ -132,53 +145,51 @@ impl Folder {
     }
 
     /// Whether two campaigns are the same, with words for what to do where they are not.
-    pub(crate) fn same(&self, mine: &Value, theirs: &Value) -> Result<(), DatasetError> {
-        let text = |value: &Value, key: &str| value[key].as_str().unwrap_or("?").to_owned();
+    pub(crate) fn same(&self, mine: &About, theirs: &About) -> Result<(), DatasetError> {
         let at = self.root.display();
-        if text(mine, "brinell") != text(theirs, "brinell") {
-            return Err(DatasetError::Refused(format!(
+        let refused = |words: String| Err(DatasetError::Refused(words));
+        if mine.brinell != theirs.brinell {
+            return refused(format!(
                 "{at} holds runs of brinell {}, and this is {}: one data set has one version; finish it with that version, or choose another \
                  folder",
-                text(theirs, "brinell"),
-                text(mine, "brinell")
-            )));
+                theirs.brinell, mine.brinell
+            ));
         }
-        if mine["campaign"] != theirs["campaign"] {
-            return Err(DatasetError::Refused(format!(
-                "{at} holds another campaign, {:?} with {} runs (plan, seed, base scenario or a file of damage differ); choose another folder",
-                text(theirs, "name"),
-                theirs["runs"]
-            )));
+        if mine.campaign != theirs.campaign {
+            let runs = match theirs.total() {
+                0 => String::new(),
+                runs => format!(" with {runs} runs"),
+            };
+            return refused(format!(
+                "{at} holds another campaign, {:?}{runs} (plan, seed, base scenario or a file of damage differ); choose another folder",
+                theirs.name
+            ));
         }
-        let columns = |about: &Value| -> Vec<String> {
-            about["columns"].as_array().into_iter().flatten().map(|column| text(column, "name")).collect()
-        };
-        if theirs["columns"].is_array() && columns(mine) != columns(theirs) {
-            return Err(DatasetError::Refused(format!(
+        let names = |columns: &[ColumnOf]| columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>();
+        if !theirs.columns.is_empty() && names(&mine.columns) != names(&theirs.columns) {
+            return refused(format!(
                 "{at} holds runs with other columns, made by another build of brinell {}; finish it with that build, or choose another folder",
-                text(mine, "brinell")
-            )));
+                mine.brinell
+            ));
         }
-        let kernels = [mine, theirs].map(|about| about[KERNEL_OF].as_str());
-        if let [Some(mine), Some(theirs)] = kernels
-            && mine != theirs
-        {
-            return Err(DatasetError::Refused(other_kernel(at, "data set", theirs, mine)));
+        match (&mine.kernel, &theirs.kernel) {
+            (Some(mine), Some(theirs)) if mine != theirs => refused(other_kernel(at, "data set", theirs, mine)),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// Files of runs without a word on whose they are: their own metadata decides.
-    fn parts_are(&self, mine: &Value) -> Result<(), DatasetError> {
+    fn parts_are(&self, mine: &About) -> Result<(), DatasetError> {
         for part in self.parts_there()? {
             let facts = record_facts(&part)?;
-            let theirs = json!({
-                "campaign": facts.metadata.get(CAMPAIGN),
-                "brinell": facts.metadata.get(brinell_io::keys::VERSION),
-                "name": facts.metadata.get(NAME),
-                KERNEL_OF: facts.metadata.get(KERNEL),
-                "runs": "?",
-            });
+            let get = |key: &str| facts.metadata.get(key).unwrap_or("?").to_owned();
+            let theirs = About {
+                campaign: get(CAMPAIGN),
+                brinell: get(brinell_io::keys::VERSION),
+                name: get(NAME),
+                kernel: facts.metadata.get(KERNEL).map(ToOwned::to_owned),
+                ..About::default()
+            };
             self.same(mine, &theirs)?;
         }
         Ok(())
@@ -209,58 +220,50 @@ impl Folder {
     ///
     /// # Errors
     /// Where a file has not the length that it was written with, or what is known of it was changed.
-    pub(crate) fn finished(&self, part: usize) -> Result<Option<Value>, DatasetError> {
+    pub(crate) fn finished(&self, part: usize) -> Result<Option<PartFacts>, DatasetError> {
         let path = self.part(part);
         if !path.exists() {
             return Ok(None);
         }
-        let recorded: Option<Value> =
-            std::fs::read(self.facts(part)).ok().and_then(|b| serde_json::from_slice(&b).ok());
-        if let Some(facts) = recorded {
+        if let Some(facts) = self.recorded(part) {
             self.are_lengths(part, &facts)?;
             return Ok(Some(facts));
         }
         let held_out = self.held_out(part);
-        let facts = json!({
-            "runs": self.file_facts(&path)?,
-            "held_out": if held_out.exists() { self.file_facts(&held_out)? } else { Value::Null },
-        });
+        let held_out = held_out.exists().then(|| file_facts(&held_out)).transpose()?;
+        let facts = PartFacts { runs: file_facts(&path)?, held_out };
         self.write_facts(part, &facts)?;
         Ok(Some(facts))
     }
 
+    /// What is written down of a part.
+    pub(crate) fn recorded(&self, part: usize) -> Option<PartFacts> {
+        serde_json::from_slice(&std::fs::read(self.facts(part)).ok()?).ok()
+    }
+
     /// That the files of a part have the lengths that were written.
-    fn are_lengths(&self, part: usize, facts: &Value) -> Result<(), DatasetError> {
-        let labels = facts["held_out"].is_object();
-        let runs = (self.part(part), &facts["runs"]);
-        let labels = labels.then(|| (self.held_out(part), &facts["held_out"]));
-        for (path, recorded) in std::iter::once(runs).chain(labels) {
+    fn are_lengths(&self, part: usize, facts: &PartFacts) -> Result<(), DatasetError> {
+        let labels = facts.held_out.iter().map(|facts| (self.held_out(part), facts));
+        for (path, recorded) in std::iter::once((self.part(part), &facts.runs)).chain(labels) {
             // Labels may have been taken elsewhere.
             let Ok(found) = std::fs::metadata(&path) else {
                 continue;
             };
-            if Some(found.len()) != recorded["bytes"].as_u64() {
+            if found.len() != recorded.bytes {
                 return Err(DatasetError::Refused(format!(
                     "{}: {} bytes, and {} says {}: one of them is damaged; remove both, and the same command makes them again",
                     path.display(),
                     found.len(),
                     self.facts(part).display(),
-                    recorded["bytes"]
+                    recorded.bytes
                 )));
             }
         }
         Ok(())
     }
 
-    pub(crate) fn write_facts(&self, part: usize, facts: &Value) -> Result<(), DatasetError> {
-        Ok(atomic_write(self.facts(part), facts.to_string() + "\n")?)
-    }
-
-    fn file_facts(&self, path: &Path) -> Result<Value, DatasetError> {
-        let RecordFacts { rows, metadata, .. } = record_facts(path)?;
-        let bytes = std::fs::metadata(path).map_err(|error| DatasetError::Read { path: path.to_owned(), error })?;
-        let tally = metadata.get(TALLY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
-        Ok(facts_of(rows, failed_of(&metadata), bytes.len(), &sha256_of(path)?, tally))
+    pub(crate) fn write_facts(&self, part: usize, facts: &PartFacts) -> Result<(), DatasetError> {
+        Ok(atomic_write(self.facts(part), serde_json::to_string(facts).unwrap_or_default() + "\n")?)
     }
 
     /// Holds a file's runs to oneself for as long as what comes back lives, on file systems that have locks.
@@ -283,27 +286,23 @@ impl Folder {
     }
 }
 
+/// What a file says of itself, where nothing is written down of it.
+fn file_facts(path: &Path) -> Result<Facts, DatasetError> {
+    let RecordFacts { rows, metadata, .. } = record_facts(path)?;
+    let bytes = std::fs::metadata(path).map_err(|error| DatasetError::Read { path: path.to_owned(), error })?.len();
+    let failed = metadata.get(FAILED).and_then(|text| text.parse().ok()).unwrap_or(0);
+    let tally = metadata.get(TALLY).and_then(|text| serde_json::from_str(text).ok());
+    Ok(Facts { rows, failed: Some(failed), bytes, sha256: sha256_of(path)?, tally, ..Facts::default() })
+}
+
 /// Key of a file's metadata: how many of its runs failed.
 pub(crate) const FAILED: &str = "brinell.failed_runs";
-
-fn failed_of(metadata: &Metadata) -> u64 {
-    metadata.get(FAILED).and_then(|text| text.parse().ok()).unwrap_or(0)
-}
-
 /// Key of a file's metadata: the instructions that its runs were computed with.
 pub(crate) const KERNEL: &str = "brinell.kernel";
-/// The same in what a folder says of itself.
-pub(crate) const KERNEL_OF: &str = "kernel";
 /// Key of a file's metadata: its [`Tally`](super::Tally); none where labels are held out.
 pub(crate) const TALLY: &str = "brinell.tally";
-
-pub(crate) fn facts_of(rows: u64, failed: u64, bytes: u64, sha256: &str, tally: Value) -> Value {
-    let mut facts = json!({ "rows": rows, "failed": failed, "bytes": bytes, "sha256": sha256 });
-    if tally.is_object() {
-        facts["tally"] = tally;
-    }
-    facts
-}
+/// Key of the checksum of `dataset.json`.
+pub(crate) const CHECKSUM: &str = "checksum";
 
 pub(crate) fn file_name(part: usize) -> String {
     format!("part-{part:05}.parquet")
@@ -328,7 +327,7 @@ pub(crate) fn make(folder: &Path) -> Result<(), DatasetError> {
 }
 
 /// JSON as the folder's files hold it.
-pub(crate) fn written(value: &Value) -> String {
+pub(crate) fn written(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 

@@ -1,10 +1,10 @@
 //! Folders in which shards of one campaign ran apart, joined in one.
 
+use crate::dataset::about::{Facts, PartFacts};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, make, written};
 use crate::dataset::sidecar;
 use brinell_io::{atomic_copy, atomic_write, sha256_of};
-use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What came of joining.
@@ -69,7 +69,7 @@ pub fn merge(from: &[PathBuf], into: &Path) -> Result<Merged, DatasetError> {
         atomic_write(target.campaign(), written(&about))?;
     }
     let mut merged = Merged::default();
-    for part in 0..about["files"].as_u64().unwrap_or(0) as usize {
+    for part in 0..about.rows_of_files().len() {
         let mut there = target.finished(part)?;
         merged.before += usize::from(there.is_some());
         for path in from {
@@ -101,9 +101,9 @@ pub fn merge(from: &[PathBuf], into: &Path) -> Result<Merged, DatasetError> {
     Ok(merged)
 }
 
-fn bring(from: &Folder, to: &Folder, part: usize, facts: &Value) -> Result<(), DatasetError> {
-    let copy = |from: PathBuf, to: PathBuf, facts: &Value| -> Result<(), DatasetError> {
-        if sha256_of(&from)? != facts["sha256"].as_str().unwrap_or("") {
+fn bring(from: &Folder, to: &Folder, part: usize, facts: &PartFacts) -> Result<(), DatasetError> {
+    let copy = |from: PathBuf, to: PathBuf, facts: &Facts| -> Result<(), DatasetError> {
+        if sha256_of(&from)? != facts.sha256 {
             return Err(DatasetError::Refused(format!(
                 "{}: damaged: its checksum is another than when it was written",
                 from.display()
@@ -111,10 +111,10 @@ fn bring(from: &Folder, to: &Folder, part: usize, facts: &Value) -> Result<(), D
         }
         Ok(atomic_copy(from, to)?)
     };
-    if facts["held_out"].is_object() {
+    if let Some(labels) = &facts.held_out {
         make(&to.root.join("held_out"))?;
-        copy(from.held_out(part), to.held_out(part), &facts["held_out"])?;
+        copy(from.held_out(part), to.held_out(part), labels)?;
     }
-    copy(from.part(part), to.part(part), &facts["runs"])?;
+    copy(from.part(part), to.part(part), &facts.runs)?;
     to.write_facts(part, facts)
 }

@@ -15,6 +15,7 @@
 //! | `README.md`, `croissant.json` | the data set's card, as Hugging Face and other tools read it |
 //! | `work/` | which campaign it is, a checksum for each file, finished runs of unfinished files |
 
+mod about;
 mod campaign;
 mod card;
 mod columns;
@@ -24,7 +25,6 @@ mod folder;
 mod merge;
 mod part;
 mod refusal;
-mod row;
 mod run;
 mod sheet;
 mod sidecar;

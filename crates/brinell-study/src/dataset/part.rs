@@ -1,15 +1,15 @@
 //! Finished runs to a file of the data set.
 
-use crate::campaign::kernel;
+use crate::campaign::{in_json, kernel};
+use crate::dataset::about::{Facts, PartFacts};
 use crate::dataset::campaign::Campaign;
-use crate::dataset::columns::DataColumn;
+use crate::dataset::columns::{DataColumn, is_failed};
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY, facts_of};
-use crate::dataset::row::is_failed;
+use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY};
 use crate::dataset::tally::{Places, Tally};
 use crate::design::Part;
-use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};
-use serde_json::{Map, Value, json};
+use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, keys, read_row_file};
+use serde_json::{Map, Value};
 
 /// Cells of a row group, in bytes: what is in memory at once of a file that is written.
 const GROUP_BYTES: usize = 8 << 20;
@@ -43,13 +43,16 @@ impl Rows {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<(Written, u64), DatasetError> {
+    /// Of the runs, so many failed.
+    fn finish(mut self, failed: u64, tally: Option<Tally>) -> Result<Facts, DatasetError> {
         self.flush()?;
-        Ok((self.writer.finish()?, self.rows))
+        let written = self.writer.finish()?;
+        let (rows, bytes, sha256) = (self.rows, written.bytes, written.sha256);
+        Ok(Facts { rows, failed: Some(failed), bytes, sha256, tally, ..Facts::default() })
     }
 }
 
-fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u64, tally: &Value) -> Metadata {
+fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u64, tally: Option<&Tally>) -> Metadata {
     let descriptions: Map<String, Value> =
         columns.iter().map(|c| (c.record.column.name.clone(), c.record.column.description.as_str().into())).collect();
     let plan = campaign.plan();
@@ -63,13 +66,13 @@ fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u
         .with("brinell.licence", &plan.licence)
         .with(keys::DESCRIPTIONS, Value::from(descriptions).to_string());
     match tally {
-        Value::Null => metadata,
-        tally => metadata.with(TALLY, tally.to_string()),
+        None => metadata,
+        Some(tally) => metadata.with(TALLY, in_json(tally).to_string()),
     }
 }
 
 /// Writes file `part` from its finished runs; `None` where one of them is not there, or not whole.
-pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result<Option<Value>, DatasetError> {
+pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result<Option<PartFacts>, DatasetError> {
     let records: Vec<RecordColumn> = campaign.columns().iter().map(|c| c.record.clone()).collect();
     let read = |run: usize| read_row_file(folder.row(part, run), &records);
     // Read twice rather than held: how many failed is in the footer, which a writer is given at its beginning.
@@ -89,12 +92,12 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
         }
     }
     // By class it would tell labels.
-    let tally = if campaign.split_of(part) == Part::HeldOut { Value::Null } else { tally.to_json() };
+    let tally = (campaign.split_of(part) != Part::HeldOut).then_some(tally);
     let all: Vec<&DataColumn> = campaign.columns().iter().collect();
     let start = |path, columns: &[&DataColumn]| -> Result<Rows, DatasetError> {
         let records: Vec<RecordColumn> = columns.iter().map(|c| c.record.clone()).collect();
         Ok(Rows {
-            writer: RecordWriter::create(path, &records, &metadata(campaign, columns, part, failed, &tally))?,
+            writer: RecordWriter::create(path, &records, &metadata(campaign, columns, part, failed, tally.as_ref()))?,
             waiting: Vec::new(),
             bytes: 0,
             rows: 0,
@@ -124,13 +127,8 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
         rows.push(cells)?;
     }
     // The labels first: once the file of the runs is there, the part counts as finished.
-    let labels = labels.map(Rows::finish).transpose()?;
-    let (written, count) = rows.finish()?;
-    let of = |(written, rows): &(Written, u64)| facts_of(*rows, 0, written.bytes, &written.sha256, Value::Null);
-    let facts = json!({
-        "runs": facts_of(count, failed, written.bytes, &written.sha256, tally),
-        "held_out": labels.as_ref().map_or(Value::Null, of),
-    });
+    let held_out = labels.map(|labels| labels.finish(0, None)).transpose()?;
+    let facts = PartFacts { runs: rows.finish(failed, tally)?, held_out };
     folder.write_facts(part, &facts)?;
     Ok(Some(facts))
 }

@@ -3,16 +3,16 @@
 use crate::dataset::campaign::Campaign;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, make};
-use crate::dataset::{Tally, part, row, sidecar};
+use crate::dataset::simulated::row;
+use crate::dataset::{Tally, part, sidecar};
 use crate::listener::Listener;
-use brinell::many;
+use crate::runner::side_by_side;
 use brinell_io::write_row_file;
 use std::collections::HashMap;
 use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::str::FromStr;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// A share of a campaign: `i/n`, i from 1. Files are dealt out in turn, so that no file's bytes depend on n.
@@ -85,18 +85,7 @@ struct Work<'a> {
     campaign: &'a Campaign,
     folder: &'a Folder,
     listener: &'a dyn Listener,
-    stop: AtomicBool,
     open: Mutex<HashMap<usize, Open>>,
-}
-
-/// What became of a run.
-enum Ended {
-    /// Done now.
-    Done,
-    /// There already.
-    Before,
-    /// Broken off, or not begun.
-    Stopped,
 }
 
 /// Does what is missing of a shard in `folder`, up to `threads` runs at a time. Call it again to resume where it
@@ -128,29 +117,21 @@ pub fn run(
             jobs.extend(runs.iter().map(|run| (*part, *run)));
         }
     }
-    let work =
-        Work { campaign, folder: &folder, listener, stop: AtomicBool::new(false), open: Mutex::new(HashMap::new()) };
-    let mut failure = None;
-    many::each(
+    let work = Work { campaign, folder: &folder, listener, open: Mutex::new(HashMap::new()) };
+    let flow = side_by_side(
         jobs.len(),
         threads,
         |k| work.one(jobs[k].0, jobs[k].1),
-        |_, ended| match ended {
-            Ok(Ended::Done) => summary.done += 1,
-            Ok(Ended::Before) => summary.before += 1,
-            Ok(Ended::Stopped) => summary.interrupted = true,
-            Err(error) => {
-                failure.get_or_insert(error);
-            }
+        |_, is_new| {
+            *if is_new { &mut summary.done } else { &mut summary.before } += 1;
+            Ok(())
         },
-    );
-    if let Some(failure) = failure {
-        return Err(failure);
-    }
+    )?;
+    summary.interrupted = flow.is_break();
     for part in parts {
         if let Some(facts) = folder.finished(part)? {
-            summary.failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
-            summary.tally.join(&facts["runs"]["tally"]);
+            summary.failed += facts.runs.failed.unwrap_or(0);
+            summary.tally.join(facts.runs.tally.as_ref());
         }
     }
     summary.whole = sidecar::write(&folder)?;
@@ -158,41 +139,29 @@ pub fn run(
 }
 
 impl Work<'_> {
-    fn one(&self, part: usize, run: usize) -> Result<Ended, DatasetError> {
-        if self.stop.load(Ordering::Relaxed) {
-            return Ok(Ended::Stopped);
-        }
-        let ended = self.try_one(part, run);
-        // A full disk fails every run to come as well.
-        if matches!(ended, Err(_) | Ok(Ended::Stopped)) {
-            self.stop.store(true, Ordering::Relaxed);
-        }
-        ended
-    }
-
-    fn try_one(&self, part: usize, run: usize) -> Result<Ended, DatasetError> {
+    /// Whether a run of a file is done now, and not there before; `None` where it was broken off.
+    fn one(&self, part: usize, run: usize) -> Result<Option<bool>, DatasetError> {
         self.begin(part)?;
-        let ended = if self.folder.row(part, run).exists() {
+        let is_new = !self.folder.row(part, run).exists();
+        if is_new && !self.make(part, run)? {
+            return Ok(None);
+        }
+        if !is_new {
             self.listener.before(1);
-            Ended::Before
-        } else if self.make(part, run)? {
-            Ended::Done
-        } else {
-            return Ok(Ended::Stopped);
-        };
+        }
         if self.end(part) {
             self.close(part)?;
         }
-        Ok(ended)
+        Ok(Some(is_new))
     }
 
     /// Runs `run` and puts its row to the disk; false where it was broken off.
     fn make(&self, part: usize, run: usize) -> Result<bool, DatasetError> {
-        let Some(made) = row::make(self.campaign, run, self.listener) else {
+        let Some((cells, failed)) = row(self.campaign, run, self.listener) else {
             return Ok(false);
         };
-        write_row_file(self.folder.row(part, run), &made.cells)?;
-        self.listener.ended(run, made.failed.as_deref());
+        write_row_file(self.folder.row(part, run), &cells)?;
+        self.listener.ended(run, failed.as_deref());
         Ok(true)
     }
 

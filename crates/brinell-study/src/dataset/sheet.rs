@@ -1,5 +1,6 @@
 //! A few runs of each class to look at: what the contact sheet shows.
 
+use crate::dataset::about::Class;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::Folder;
 use brinell::channel::SENSOR;
@@ -7,8 +8,7 @@ use brinell::observe::envelope_band_above;
 use brinell::scenario::Operation;
 use brinell::signal::{Segments, envelope_spectrum};
 use brinell_io::{Cell, read_records};
-use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 /// Turns of the shaft that the waveform shows, at the record's end.
@@ -109,11 +109,9 @@ struct Place {
 pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetError> {
     let folder = Folder::new(folder.as_ref());
     let about = match folder.described()? {
-        Value::Null => folder.about()?.ok_or_else(|| folder.no_data_set())?,
-        about => about,
+        Some((about, _)) => about,
+        None => folder.about()?.ok_or_else(|| folder.no_data_set())?,
     };
-    let text = |value: &Value| value.as_str().unwrap_or("").to_owned();
-    let list = |key: &str| about[key].as_array().into_iter().flatten();
     let parts = folder.parts_there()?;
     if parts.is_empty() {
         return Err(DatasetError::Refused(format!(
@@ -123,16 +121,15 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
     }
     let places = places(&parts)?;
     let along = along_the_load(&parts, &places)?;
-    let signals = || list("columns").filter(|c| c["type"] == "list<float>");
-    let Some(signal) = signals().find(|c| c["name"] == along).or_else(|| signals().next()) else {
+    let signals = || about.columns.iter().filter(|c| c.is_signal());
+    let Some(signal) = signals().find(|c| c.name == along).or_else(|| signals().next()) else {
         let message = format!("{}: no column is a signal", folder.root.display());
         return Err(DatasetError::Refused(message));
     };
-    let name = text(&signal["name"]);
-    let mut classes: Vec<SheetClass> = list("classes")
-        .enumerate()
-        .map(|(label, class)| SheetClass { name: text(&class["name"]), label, runs: 0, shown: Vec::new() })
-        .collect();
+    let name = signal.name.clone();
+    let class =
+        |(label, class): (usize, &Class)| SheetClass { name: class.name.clone(), label, ..SheetClass::default() };
+    let mut classes: Vec<SheetClass> = about.classes.iter().enumerate().map(class).collect();
     let mut chosen = BTreeSet::new();
     for class in &mut classes {
         let of_class = places.iter().filter(|place| place.label == class.label);
@@ -141,22 +138,18 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
         let spread = spread(of_class.len(), each).map(|k| (of_class[k].part, of_class[k].row));
         chosen.extend(spread);
     }
+    let columns: Vec<&str> = COLUMNS.split(' ').chain([&*name]).collect();
     for (part, path) in parts.iter().enumerate() {
         let is_chosen = |row: usize| chosen.contains(&(part, row));
-        for cells in read_records(path, &columns(&name), is_chosen)? {
-            let (label, run) = run_of(cells);
+        for cells in read_records(path, &columns, is_chosen)? {
+            let (label, run) = run_of(&columns.iter().copied().zip(cells).collect(), &name);
             if let Some(class) = classes.get_mut(label) {
                 class.shown.push(run);
             }
         }
     }
-    Ok(Sheet {
-        name: text(&about["name"]),
-        version: text(&about["brinell"]),
-        signal: name,
-        unit: text(&signal["unit"]),
-        classes,
-    })
+    let unit = signal.unit.clone();
+    Ok(Sheet { name: about.name, version: about.brinell, signal: name, unit, classes })
 }
 
 fn places(parts: &[PathBuf]) -> Result<Vec<Place>, DatasetError> {
@@ -196,84 +189,61 @@ fn spread(count: usize, each: usize) -> impl Iterator<Item = usize> {
     })
 }
 
-/// What is read of a run, in the order of [`run_of`].
-fn columns(signal: &str) -> [&str; 18] {
-    [
-        "label",
-        "run",
-        "split",
-        "speed_rpm",
-        "load_n",
-        "sample_rate_hz",
-        "bpfo_hz",
-        "bpfi_hz",
-        "bsf_hz",
-        "defect_on",
-        "defect_center_deg",
-        "defect_length_mm",
-        "defect_width_mm",
-        "defect_depth_um",
-        "defect_frequency_hz",
-        "duration_s",
-        "analysed_from_s",
-        signal,
-    ]
-}
+/// What is read of a run beside its signal.
+const COLUMNS: &str = "label run split speed_rpm load_n sample_rate_hz bpfo_hz bpfi_hz bsf_hz defect_on defect_center_deg \
+                       defect_length_mm defect_width_mm defect_depth_um defect_frequency_hz analysed_from_s";
 
 /// A run from its cells, and its label.
-fn run_of(cells: Vec<Cell>) -> (usize, SheetRun) {
-    let whole = |k: usize| match cells[k] {
+fn run_of(cells: &HashMap<&str, Cell>, signal: &str) -> (usize, SheetRun) {
+    let whole = |name: &str| match cells[name] {
         Cell::Whole(x) => x,
         _ => -1,
     };
-    let number = |k: usize| match cells[k] {
+    let number = |name: &str| match cells[name] {
         Cell::Number(x) => Some(x),
         _ => None,
     };
-    let numbers = |k: usize| match &cells[k] {
+    let numbers = |name: &str| match &cells[name] {
         Cell::Numbers(x) => x.as_slice(),
         _ => &[],
     };
-    let on: &[String] = match &cells[9] {
+    let on: &[String] = match &cells["defect_on"] {
         Cell::WordsList(words) => words,
         _ => &[],
     };
     let defects = on.iter().enumerate().map(|(d, on)| {
-        let of = |k: usize| numbers(k).get(d).copied();
+        let of = |name: &str| numbers(name).get(d).copied();
         SheetDefect {
             on: on.clone(),
-            center_deg: of(10).unwrap_or(f64::NAN),
-            length_mm: of(11).unwrap_or(f64::NAN),
-            width_mm: of(12).unwrap_or(f64::NAN),
-            depth_um: of(13).unwrap_or(f64::NAN),
-            frequency_hz: of(14),
+            center_deg: of("defect_center_deg").unwrap_or(f64::NAN),
+            length_mm: of("defect_length_mm").unwrap_or(f64::NAN),
+            width_mm: of("defect_width_mm").unwrap_or(f64::NAN),
+            depth_um: of("defect_depth_um").unwrap_or(f64::NAN),
+            frequency_hz: of("defect_frequency_hz"),
         }
     });
-    let raceways = [number(6), number(7), number(8).map(|bsf| 2.0 * bsf)];
+    let raceways = [number("bpfo_hz"), number("bpfi_hz"), number("bsf_hz").map(|bsf| 2.0 * bsf)];
     let highest = raceways.into_iter().flatten().fold(0.0, f64::max);
     let mut run = SheetRun {
-        run: whole(1),
-        split: match &cells[2] {
+        run: whole("run"),
+        split: match &cells["split"] {
             Cell::Words(word) => word.clone(),
             _ => String::new(),
         },
-        speed_rpm: number(3),
-        load_n: numbers(4).to_vec(),
+        speed_rpm: number("speed_rpm"),
+        load_n: numbers("load_n").to_vec(),
         defects: defects.collect(),
-        analysed_from_s: number(16).unwrap_or(0.0),
+        analysed_from_s: number("analysed_from_s").unwrap_or(0.0),
         rms: f64::NAN,
-        from_s: 0.0,
-        dt_s: number(5).map_or(f64::NAN, |rate| 1.0 / rate),
-        stretch: Vec::new(),
-        band_hz: (0.0, 0.0),
+        dt_s: number("sample_rate_hz").map_or(f64::NAN, |rate| 1.0 / rate),
         df_hz: f64::NAN,
-        envelope: Vec::new(),
         top_hz: 4.5 * highest,
+        ..SheetRun::default()
     };
-    if let Cell::Signal(signal) = &cells[17] {
-        run.take(signal, highest);
+    if let Cell::Signal(x) = &cells[signal] {
+        run.take(x, highest);
     }
-    (whole(0).max(0) as usize, run)
+    (whole("label").max(0) as usize, run)
 }
 
 impl SheetRun {

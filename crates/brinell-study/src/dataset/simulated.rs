@@ -1,8 +1,11 @@
 //! One run, simulated as far as it can be: what the cells of its row are read from.
 
+use crate::campaign::settings_json;
+use crate::dataset::campaign::Campaign;
 use crate::dataset::truth::{Instant, Truth};
 use crate::design::{Draw, Draws, Value, unsaid};
 use crate::listener::Listener;
+use crate::runner::observed;
 use brinell::bearing::kinematics::Kinematics;
 use brinell::channel::Channel;
 use brinell::defect::Defect;
@@ -11,14 +14,13 @@ use brinell::model::{Layout, Model};
 use brinell::observe::Findings;
 use brinell::observe::slip::RowSlip;
 use brinell::plausibility::Beforehand;
-use brinell::result::Parts;
-use brinell::result::{RunResult, finish};
+use brinell::result::{Parts, RunResult};
 use brinell::scenario::{self, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
-use brinell_io::Column;
-use serde_json::{Map, Value as Json};
+use brinell_io::{Cell, Column};
+use serde_json::Value as Json;
 
 /// What a run's cells are read from, as far as it came.
 pub(crate) struct Run<'a> {
@@ -27,31 +29,39 @@ pub(crate) struct Run<'a> {
     pub(crate) draw: Option<Draw>,
     pub(crate) loaded: Option<Loaded>,
     /// The run with its outcome and findings, and what was recorded.
-    ended: Option<(RunResult, Truth<'a>)>,
+    ended: Option<(RunResult, Truth)>,
     /// Why it failed.
     pub(crate) failed: Option<String>,
 }
 
 /// Why a run has no signals.
-pub(crate) enum Short {
+enum Short {
     /// It was broken off.
     Stopped,
     /// It cannot be, or failed.
     Failed(String),
 }
 
-impl<'a> Run<'a> {
-    /// Before it begins.
-    pub(crate) fn new(draws: &'a Draws, index: usize) -> Self {
-        Self { draws, index, draw: None, loaded: None, ended: None, failed: None }
+/// Run `index` as the cells of its row, and why it failed; nothing where it was broken off. A run that cannot be is a
+/// row with its reason.
+pub(crate) fn row(campaign: &Campaign, index: usize, listener: &dyn Listener) -> Option<(Vec<Cell>, Option<String>)> {
+    let mut run = Run { draws: campaign.draws(), index, draw: None, loaded: None, ended: None, failed: None };
+    match run.go(campaign.try_scenario(index), campaign.signals(), listener) {
+        Ok(()) => {}
+        Err(Short::Failed(reason)) => run.failed = Some(reason),
+        Err(Short::Stopped) => return None,
     }
+    let cells = campaign.columns().iter().map(|column| column.cell(&mut run));
+    Some((cells.collect(), run.failed))
+}
 
+impl Run<'_> {
     /// Simulates its scenario, every channel of which must be among the signals.
-    pub(crate) fn go(
+    fn go(
         &mut self,
         scenario: Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)>,
         signals: &[Column],
-        listener: &'a dyn Listener,
+        listener: &dyn Listener,
     ) -> Result<(), Short> {
         let failed = |error: &dyn std::fmt::Display| Short::Failed(one_line(&error.to_string()));
         let (loaded, draw) = scenario.map_err(|(problems, draw)| {
@@ -76,9 +86,10 @@ impl<'a> Run<'a> {
                 channel.name, channel.unit
             )));
         }
-        let listener = listener.begin(self.index, scenario.simulation.duration_s);
-        let mut truth = Truth::new(scenario, &simulation, signals, listener);
-        let result = finish(scenario.clone(), simulation, &mut truth);
+        let mut truth = Truth::new(scenario, &simulation, signals);
+        let run = (scenario.clone(), simulation);
+        let result = observed(self.index, run, &|| Ok(Vec::new()), Some(&mut truth), listener);
+        let result = result.map_err(|error| failed(&error))?;
         let (end, too_large) = (result.outcome.end.clone(), truth.too_large);
         self.ended = Some((result, truth));
         if let Some((k, value)) = too_large {
@@ -144,7 +155,7 @@ impl<'a> Run<'a> {
     }
 
     /// What was recorded of a run that came to its end.
-    pub(crate) fn gathered(&self) -> Option<&Truth<'a>> {
+    pub(crate) fn gathered(&self) -> Option<&Truth> {
         let ended = self.ended.as_ref().filter(|_| self.failed.is_none());
         ended.map(|(_, truth)| truth)
     }
@@ -196,8 +207,6 @@ impl<'a> Run<'a> {
 
     /// What it sets over the base scenario, as JSON.
     pub(crate) fn settings(&self) -> Option<String> {
-        let settings = self.draw.as_ref()?.settings.iter();
-        let settings: Map<String, Json> = settings.map(|(key, value)| (key.clone(), value.as_str().into())).collect();
-        Some(Json::from(settings).to_string())
+        Some(Json::from(settings_json(&self.draw.as_ref()?.settings)).to_string())
     }
 }

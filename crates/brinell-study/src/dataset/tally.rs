@@ -1,17 +1,22 @@
 //! How many runs of each class failed, are clipped, hold a signal that does not change, or have a result with warnings.
 
-use crate::dataset::columns::{CLIPPED, LABEL, WARNINGS};
-use crate::dataset::row::is_failed;
+use crate::dataset::columns::{CLIPPED, LABEL, WARNINGS, is_failed};
 use brinell_io::{Cell, Kind, RecordColumn};
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
-/// What is counted, as it is written down: runs; of them, those that failed, those with samples beyond the ADC's range,
-/// those with a sensor's signal that is one value throughout, and those whose result has warnings.
-pub(crate) const COUNTED: [&str; 5] = ["runs", "failed", "clipped", "constant", "warned"];
-
-/// Counts by class, of runs whose labels are open: a list of each of `COUNTED`.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Tally(pub(crate) [Vec<u64>; 5]);
+/// Counts by class, of runs whose labels are open.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Tally {
+    pub(crate) runs: Vec<u64>,
+    pub(crate) failed: Vec<u64>,
+    /// With samples beyond the ADC's range.
+    pub(crate) clipped: Vec<u64>,
+    /// With a signal of the sensor that is one value throughout.
+    pub(crate) constant: Vec<u64>,
+    /// With a result that has warnings.
+    pub(crate) warned: Vec<u64>,
+}
 
 /// Where in a row is what a tally counts.
 pub(crate) struct Places {
@@ -35,20 +40,14 @@ impl Places {
 }
 
 impl Tally {
-    /// What is counted of the runs of all splits, from a data set's description.
-    pub(crate) fn of_splits(about: &Value) -> Self {
-        let mut all = Self::default();
-        for split in about["splits"].as_array().into_iter().flatten().filter(|s| s["failed_of_classes"].is_array()) {
-            for (name, counts) in COUNTED.iter().zip(&mut all.0) {
-                join(counts, &split[format!("{name}_of_classes")]);
-            }
-        }
-        all
-    }
-
     /// Of no runs of so many classes.
     pub(crate) fn of(classes: usize) -> Self {
-        Self([(); 5].map(|()| vec![0; classes]))
+        let none = || vec![0; classes];
+        Self { runs: none(), failed: none(), clipped: none(), constant: none(), warned: none() }
+    }
+
+    fn lists(&mut self) -> [&mut Vec<u64>; 5] {
+        [&mut self.runs, &mut self.failed, &mut self.clipped, &mut self.constant, &mut self.warned]
     }
 
     /// Counts a run by its row.
@@ -70,27 +69,25 @@ impl Tally {
             places.signals.iter().any(is_constant),
             matches!(warnings, Some(Cell::WordsList(words)) if !words.is_empty()),
         ];
-        for (counts, counted) in self.0.iter_mut().zip(counted) {
+        for (counts, counted) in self.lists().into_iter().zip(counted) {
             if let Some(count) = counts.get_mut(label) {
                 *count += u64::from(counted);
             }
         }
     }
 
-    /// Adds what is written down of others.
-    pub(crate) fn join(&mut self, written: &Value) {
-        for (name, counts) in COUNTED.iter().zip(&mut self.0) {
-            join(counts, &written[name]);
+    /// Adds those of others, where there are any.
+    pub(crate) fn join(&mut self, others: Option<&Self>) {
+        let mut others = others.cloned().unwrap_or_default();
+        for (counts, more) in self.lists().into_iter().zip(others.lists()) {
+            counts.resize(counts.len().max(more.len()), 0);
+            counts.iter_mut().zip(more).for_each(|(count, more)| *count += *more);
         }
-    }
-
-    pub(crate) fn to_json(&self) -> Value {
-        COUNTED.into_iter().map(ToOwned::to_owned).zip(self.0.iter().map(|counts| json!(counts))).collect()
     }
 
     /// What the data set's user should know, a sentence each; `classes` are their names.
     pub fn words(&self, classes: &[String]) -> Vec<String> {
-        let [runs, failed, clipped, constant, warned] = &self.0;
+        let Self { runs, failed, clipped, constant, warned } = self;
         let all: u64 = runs.iter().sum();
         let of = |counts: &[u64], what: &str| {
             let sum: u64 = counts.iter().sum();
@@ -120,15 +117,6 @@ impl Tally {
     }
 }
 
-fn join(counts: &mut Vec<u64>, written: &Value) {
-    for (k, count) in written.as_array().into_iter().flatten().enumerate() {
-        if counts.len() <= k {
-            counts.push(0);
-        }
-        counts[k] += count.as_u64().unwrap_or(0);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,10 +134,10 @@ mod tests {
         tally.add(&row(1, 7, "complete", &[0.0, 1.0]), &places);
         tally.add(&row(1, 0, "failed", &[]), &places);
         let mut twice = Tally::default();
-        twice.join(&tally.to_json());
+        twice.join(Some(&tally));
         assert_eq!(twice, tally);
-        twice.join(&tally.to_json());
-        assert_eq!([&twice.0[0], &twice.0[2]], [&[2, 4], &[0, 2]]);
+        twice.join(Some(&tally));
+        assert_eq!([twice.runs, twice.clipped], [[2, 4], [0, 2]]);
         let words = tally.words(&["healthy".into(), "outer".into()]);
         assert!(words[0].starts_with("1 of 3 runs has failed, without a signal (outer 1 of 2): "), "{words:?}");
         assert!(words[1].contains("clipped (outer 1 of 2): the column clipped_samples"), "{words:?}");

@@ -1,12 +1,11 @@
 //! Hears a run: its signals as 32-bit floats, and what happened that no sensor tells. Allocates as rollers pass damage,
 //! never in a step.
 
-use crate::listener::RunListener;
 use brinell::channel::Frame;
 use brinell::defect::{SIDES, Side};
 use brinell::observe::passes::{Event, Passes};
 use brinell::scenario::Scenario;
-use brinell::simulate::{Observer, Simulation, SolverWork};
+use brinell::simulate::{Observer, Simulation};
 use brinell_io::Column;
 use std::ops::ControlFlow;
 
@@ -23,15 +22,12 @@ impl Instant {
     }
 }
 
-pub(crate) struct Truth<'a> {
-    listener: Box<dyn RunListener + 'a>,
+pub(crate) struct Truth {
     settled: f64,
     passes: Passes,
     /// Contact forces at the step before, by side, N.
     before: [Vec<f64>; 2],
     pub(crate) instants: Vec<Instant>,
-    /// The analysed time begins here, s.
-    pub(crate) from: Option<f64>,
     /// Of each roller's outer contact: sum and largest force over samples, N.
     pub(crate) outer: Vec<(f64, f64)>,
     pub(crate) samples: u64,
@@ -47,13 +43,8 @@ pub(crate) struct Truth<'a> {
     pub(crate) too_large: Option<(usize, f64)>,
 }
 
-impl<'a> Truth<'a> {
-    pub(crate) fn new(
-        scenario: &Scenario,
-        simulation: &Simulation,
-        signals: &[Column],
-        listener: Box<dyn RunListener + 'a>,
-    ) -> Self {
+impl Truth {
+    pub(crate) fn new(scenario: &Scenario, simulation: &Simulation, signals: &[Column]) -> Self {
         let layout = &simulation.model().layout;
         let place = |signal: &Column| simulation.channels().iter().position(|c| c.name == signal.name);
         let places: Vec<Option<usize>> = signals.iter().map(place).collect();
@@ -64,12 +55,10 @@ impl<'a> Truth<'a> {
             None => Vec::new(),
         };
         Self {
-            listener,
             settled: scenario.settled_s(),
             passes: Passes::new(simulation.model()),
             before: [0; 2].map(|_| vec![0.0; layout.rollers()]),
             instants: Vec::new(),
-            from: None,
             outer: vec![(0.0, 0.0); layout.rollers()],
             samples: 0,
             largest: 0.0,
@@ -87,14 +76,14 @@ impl<'a> Truth<'a> {
     }
 }
 
-impl Observer for Truth<'_> {
+impl Observer for Truth {
     fn again(&mut self, simulation: &Simulation) -> ControlFlow<()> {
         self.passes = Passes::new(simulation.model());
         self.before.iter_mut().for_each(|forces| forces.fill(0.0));
         self.instants.clear();
         self.outer.fill((0.0, 0.0));
         self.signals.iter_mut().for_each(Vec::clear);
-        (self.from, self.samples, self.largest, self.kept) = (None, 0, 0.0, 0);
+        (self.samples, self.largest, self.kept) = (0, 0.0, 0);
         ControlFlow::Continue(())
     }
 
@@ -112,10 +101,7 @@ impl Observer for Truth<'_> {
     }
 
     fn sample(&mut self, _: u64, frame: &Frame) {
-        if self.from.is_none() && frame.t >= self.settled {
-            self.from = Some(frame.t);
-        }
-        if self.from.is_none() {
+        if frame.t < self.settled {
             return;
         }
         self.samples += 1;
@@ -147,9 +133,5 @@ impl Observer for Truth<'_> {
             }
         }
         ControlFlow::Continue(())
-    }
-
-    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        self.listener.at(t)
     }
 }

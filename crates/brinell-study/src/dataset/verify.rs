@@ -1,12 +1,11 @@
 //! A data set's folder compared with what it says of itself.
 
 use crate::campaign::DIFFER;
+use crate::dataset::about::{About, Facts, Held, Sources};
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, KERNEL_OF, PART, SECRET_PATH, file_name, number_of};
-use crate::dataset::sidecar::{CARD, files_of, is_whole};
+use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, PART, SECRET_PATH, file_name, number_of};
 use brinell_io::{keys, record_facts, sha256_of};
-use serde_json::Value;
 use std::path::Path;
 
 /// What was found.
@@ -33,30 +32,29 @@ pub struct Verified {
 /// Where there is no data set, or it cannot be read at all.
 pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     let folder = Folder::new(path.as_ref());
-    let (sidecar, about) = (folder.described(), folder.about());
+    let (described, planned) = (folder.described(), folder.about());
     // Of a description that is damaged the other one tells what it is of.
-    let problems = [sidecar.as_ref().err(), about.as_ref().err()].into_iter().flatten().map(ToString::to_string);
-    let problems: Vec<String> = problems.collect();
-    let (sidecar, about) = match (sidecar, about) {
-        (sidecar, Ok(Some(about))) => (sidecar.ok(), about),
-        (Ok(sidecar), _) if sidecar.is_object() => (Some(sidecar.clone()), sidecar),
+    let problems = [described.as_ref().err(), planned.as_ref().err()];
+    let problems = problems.into_iter().flatten().map(ToString::to_string).collect();
+    let (described, planned) = match (described, planned) {
+        (described, Ok(Some(planned))) => (described.map_err(drop), planned),
+        (Ok(Some(described)), _) => (Ok(Some(described.clone())), described.0),
         (Err(error), _) | (_, Err(error)) => return Err(error),
-        (Ok(_), Ok(None)) => return Err(folder.no_data_set()),
+        (Ok(None), Ok(None)) => return Err(folder.no_data_set()),
     };
-    let is_damaged = sidecar.is_none();
-    let sidecar = sidecar.unwrap_or_default();
-    let mut found = Verified {
-        problems,
-        of: match sidecar["files"].as_array() {
-            Some(listed) => listed.len(),
-            None => about["files"].as_u64().unwrap_or(0) as usize,
-        },
-        ..Verified::default()
+    let mut found = Verified { problems, ..Verified::default() };
+    let unfinished = match &described {
+        Ok(None) => Some("dataset.json is missing: the data set is not finished"),
+        Ok(Some((made, _))) if (&made.campaign, &made.brinell) != (&planned.campaign, &planned.brinell) => {
+            Some("dataset.json is of another campaign or version than work/campaign.json")
+        }
+        Ok(Some((_, false))) => Some("dataset.json: its checksum is another than when it was written"),
+        Ok(Some((_, true))) | Err(()) => None,
     };
-    let set = Set { folder: &folder, sidecar: &sidecar, about: &about };
-    if !is_damaged {
-        set.sidecar(&mut found);
-    }
+    found.problems.extend(unfinished.map(ToOwned::to_owned));
+    let made = described.ok().flatten().map(|(made, _)| made);
+    found.of = made.as_ref().map_or_else(|| planned.rows_of_files().len(), |made| made.listed().len());
+    let set = Set { folder: &folder, made: made.unwrap_or_default(), planned };
     set.files(&mut found)?;
     set.strangers(&mut found)?;
     set.card(&mut found)?;
@@ -67,32 +65,16 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
 /// A data set's folder and what it says of itself.
 struct Set<'a> {
     folder: &'a Folder,
-    /// `dataset.json`, null where it is missing.
-    sidecar: &'a Value,
-    /// The campaign.
-    about: &'a Value,
+    /// `dataset.json`, empty where it is missing.
+    made: About,
+    planned: About,
 }
 
 impl Set<'_> {
-    fn sidecar(&self, found: &mut Verified) {
-        let (sidecar, about) = (self.sidecar, self.about);
-        let problem = if !sidecar.is_object() {
-            "dataset.json is missing: the data set is not finished"
-        } else if about["campaign"] != sidecar["campaign"] || about["brinell"] != sidecar["brinell"] {
-            "dataset.json is of another campaign or version than work/campaign.json"
-        } else if is_whole(sidecar) != Some(true) {
-            "dataset.json: its checksum is another than when it was written"
-        } else {
-            return;
-        };
-        found.problems.push(problem.into());
-    }
-
     fn files(&self, found: &mut Verified) -> Result<(), DatasetError> {
-        let columns = self.about["columns"].as_array().into_iter().flatten();
-        let columns: Vec<&str> = columns.filter_map(|c| c["name"].as_str()).collect();
-        let parts = files_of(self.about);
-        let mut kernel = self.about[KERNEL_OF].as_str().map(ToOwned::to_owned);
+        let columns: Vec<&str> = self.planned.columns.iter().map(|c| &*c.name).collect();
+        let parts = self.planned.rows_of_files();
+        let mut kernel = self.planned.kernel.clone();
         for part in 0..found.of {
             let rows = parts.get(part).map_or(0, |(_, rows)| *rows);
             self.file(part, &columns, rows, &mut kernel, found)?;
@@ -129,12 +111,9 @@ impl Set<'_> {
             }
         };
         let get = |key: &str| facts.metadata.get(key);
-        let ours = self.about["campaign"].as_str();
-        say(get(CAMPAIGN) != ours, "of another campaign");
-        let (version, theirs) = (self.about["brinell"].as_str(), get(keys::VERSION));
-        let word = |version: Option<&str>| version.unwrap_or("?").to_owned();
-        let other = format!("of brinell {}, the others of {}", word(theirs), word(version));
-        say(theirs != version, &other);
+        say(get(CAMPAIGN) != Some(&*self.planned.campaign), "of another campaign");
+        let (version, theirs) = (&*self.planned.brinell, get(keys::VERSION));
+        say(theirs != Some(version), &format!("of brinell {}, the others of {version}", theirs.unwrap_or("?")));
         let theirs = get(KERNEL).unwrap_or("?");
         let ours = kernel.get_or_insert_with(|| theirs.to_owned());
         let mixed = format!("computed with the kernel {theirs}, the data set with {ours}: {DIFFER}");
@@ -145,9 +124,8 @@ impl Set<'_> {
         let count = format!("{} rows instead of {rows}", facts.rows);
         say(facts.rows != rows, &count);
         if let Some(recorded) = self.recorded(part) {
-            let changed = Some(sha256_of(&path)?.as_str()) != recorded["sha256"].as_str();
-            say(changed, "its checksum is another than when it was written");
-            found.failed += recorded["failed"].as_u64().unwrap_or(0);
+            say(sha256_of(&path)? != recorded.sha256, "its checksum is another than when it was written");
+            found.failed += recorded.failed.unwrap_or(0);
         }
         found.rows += facts.rows;
         found.files += usize::from(found.problems.len() == before);
@@ -155,13 +133,9 @@ impl Set<'_> {
     }
 
     /// What is written down of a file.
-    fn recorded(&self, part: usize) -> Option<Value> {
-        if let Some(files) = self.sidecar["files"].as_array() {
-            return files.get(part).cloned();
-        }
-        let bytes = std::fs::read(self.folder.facts(part)).ok()?;
-        let facts: Value = serde_json::from_slice(&bytes).ok()?;
-        Some(facts["runs"].clone())
+    fn recorded(&self, part: usize) -> Option<Facts> {
+        let listed = self.made.listed().get(part).cloned();
+        listed.or_else(|| Some(self.folder.recorded(part)?.runs))
     }
 
     fn strangers(&self, found: &mut Verified) -> Result<(), DatasetError> {
@@ -179,43 +153,39 @@ impl Set<'_> {
     }
 
     fn card(&self, found: &mut Verified) -> Result<(), DatasetError> {
-        let card = &self.sidecar[CARD];
-        let path = card["path"].as_str().filter(|path| *path == CROISSANT);
-        if let (Some(path), Some(recorded)) = (path, card["sha256"].as_str()) {
-            if !self.folder.root.join(path).exists() {
-                found.absent.push(format!("{path} is not here"));
-            } else {
-                self.unchanged(path, Some(recorded), found)?;
+        match self.made.card.as_ref().filter(|card| card.path == CROISSANT) {
+            Some(card) if self.folder.root.join(CROISSANT).exists() => self.unchanged(&card.path, &card.sha256, found),
+            Some(_) => {
+                found.absent.push(format!("{CROISSANT} is not here"));
+                Ok(())
             }
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// Held-out labels may have been taken elsewhere, all of them: those that are here are checked, and what they are
     /// made from.
     fn labels(&self, found: &mut Verified) -> Result<(), DatasetError> {
-        let plan = &self.sidecar["held_out"]["plan"];
-        let secret: Value = std::fs::read(self.folder.secret())
-            .ok()
-            .and_then(|bytes| serde_json::from_slice(&bytes).ok())
-            .unwrap_or_default();
+        let plan = match &self.made.held_out {
+            Some(Held::Made { plan, .. }) => Some(plan),
+            _ => None,
+        };
+        let secret = std::fs::read(self.folder.secret()).ok();
+        let secret: Sources = secret.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
         let there = |path: &str| self.folder.root.join(path).exists();
-        let parts = files_of(self.about).len();
+        let parts = self.planned.rows_of_files().len();
         let mut labels = (0..parts).map(|part| self.folder.held_out(part));
         let are_here = labels.any(|path| path.exists()) || there(SECRET_PATH);
-        if plan.is_object() && !are_here {
+        if plan.is_some() && !are_here {
             found.absent.push("labels are not here".into());
         }
         if !are_here {
             return Ok(());
         }
-        let files = secret["files"].as_array().into_iter().flatten();
-        for entry in files.chain([plan]) {
-            let Some(path) = entry["path"].as_str() else {
-                continue;
-            };
+        let files = secret.files.iter().flatten().map(|file| (&*file.path, &*file.sha256));
+        for (path, sha256) in files.chain(plan.map(|plan| (&*plan.path, &*plan.sha256))) {
             if there(path) {
-                self.unchanged(path, entry["sha256"].as_str(), found)?;
+                self.unchanged(path, sha256, found)?;
                 continue;
             }
             let remedy = match path == SECRET_PATH {
@@ -227,8 +197,8 @@ impl Set<'_> {
         Ok(())
     }
 
-    fn unchanged(&self, path: &str, recorded: Option<&str>, found: &mut Verified) -> Result<(), DatasetError> {
-        if Some(sha256_of(self.folder.root.join(path))?.as_str()) != recorded {
+    fn unchanged(&self, path: &str, recorded: &str, found: &mut Verified) -> Result<(), DatasetError> {
+        if sha256_of(self.folder.root.join(path))? != recorded {
             found.problems.push(format!("{path}: its checksum is another than when it was written"));
         }
         Ok(())

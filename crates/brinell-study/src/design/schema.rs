@@ -6,6 +6,9 @@ use brinell::document::json_schema;
 use brinell::document::reading::schema_of;
 use serde_json::{Map, Value as Json, json};
 
+/// A table with the name of a distribution as its key.
+const DISTRIBUTION: &str = include_str!("distribution.schema.json");
+
 /// Where the plan's own keys hold a piece of a scenario, and which.
 const PIECES: [(&str, &str); 3] = [
     ("/properties/vary", "vary"),
@@ -21,7 +24,7 @@ pub fn plan_schema() -> Json {
     });
     for (place, piece) in PIECES {
         if let Some(Json::Object(at)) = schema.pointer_mut(place) {
-            at.insert("$ref".into(), json!(format!("#/$defs/{piece}")));
+            at.insert("$ref".into(), format!("#/$defs/{piece}").into());
         }
     }
     let mut scenario = json_schema();
@@ -32,11 +35,9 @@ pub fn plan_schema() -> Json {
     if let Some(Json::Object(keys)) = scenario.pointer_mut("/properties/simulation/properties") {
         keys.remove("record");
     }
-    schema["$defs"] = json!({
-        "vary": opened(&scenario, Sets::Some),
-        "defects": opened(&scenario["properties"]["defects"], Sets::All),
-        "distribution": distribution(),
-    });
+    schema["$defs"]["vary"] = opened(&scenario, Sets::Some);
+    schema["$defs"]["defects"] = opened(&scenario["properties"]["defects"], Sets::All);
+    schema["$defs"]["distribution"] = serde_json::from_str(DISTRIBUTION).unwrap_or_default();
     schema
 }
 
@@ -98,31 +99,6 @@ fn drawn(schema: &Json, sets: Sets) -> Json {
     }
     either.insert("anyOf".into(), json!([open, { "$ref": "#/$defs/distribution" }]));
     either.into()
-}
-
-/// A table with the name of a distribution as its key.
-fn distribution() -> Json {
-    let number = json!({ "type": "number" });
-    let ends = |of: Json| json!({ "type": "array", "items": of, "minItems": 2, "maxItems": 2 });
-    let some = |of: Json| json!({ "type": "array", "items": of, "minItems": 1 });
-    let kind = |name: &str, of: Json, doc: &str, options: &[(&str, Json)]| {
-        let mut keys = Map::from_iter([(name.to_owned(), of)]);
-        keys.extend(options.iter().map(|(k, v)| ((*k).to_owned(), v.clone())));
-        json!({ "type": "object", "description": doc, "properties": keys, "required": [name], "additionalProperties": false })
-    };
-    let whole = json!({ "type": "integer", "minimum": -1e9, "maximum": 1e9 });
-    let normal = json!({
-        "type": "array", "prefixItems": [number, { "type": "number", "exclusiveMinimum": 0 }], "minItems": 2, "maxItems": 2,
-    });
-    let limits = ends(number.clone());
-    json!({ "description": "a distribution", "oneOf": [
-        kind("uniform", ends(number.clone()), "evenly over [low, high)", &[]),
-        kind("log", ends(json!({ "type": "number", "exclusiveMinimum": 0 })), "evenly in the logarithm", &[]),
-        kind("normal", normal, "mean and standard deviation", &[("within", limits.clone()), ("clip", limits)]),
-        kind("whole", ends(whole), "whole numbers, both ends included", &[]),
-        kind("choice", some(json!({})), "one of a list", &[("weights", some(json!({ "type": "number", "minimum": 0 })))]),
-        kind("grid", json!({ "oneOf": [some(json!({})), { "type": "string" }] }), "each in turn: a list, or \"FROM:TO:STEP\"", &[]),
-    ] })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::distribution::{Distribution, Value};
 use brinell::document::reading::{Misfit, Node, Spec, Toml, ValueType, key_text};
-use serde_json::{Value as Json, json};
+use serde_json::{Map, Value as Json};
 use std::collections::BTreeMap;
 
 /// A value, a distribution, or a list or a table of these.
@@ -142,6 +142,6 @@ impl ValueType for Template {
     }
 
     fn schema(_: &Spec) -> Json {
-        json!({})
+        Json::Object(Map::new())
     }
 }

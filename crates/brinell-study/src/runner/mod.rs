@@ -1,24 +1,25 @@
 //! Many runs with a journal: what is finished is on the disk, and is not run again.
 //!
 //! A [`Ledger`] is the journal of a folder. [`run()`] makes the runs of [`Task`]s; a [`Work`] says what their scenarios
-//! are and what is kept of them. [`ReadPoints`] reads the points of a plan; [`estimate`] tries a few
+//! are and what is kept of them. [`GridPoints`] reads the points of a grid; [`estimate`] tries a few
 //! for what they will cost.
 
 mod cost;
+mod grid_points;
 mod ledger;
-mod read_points;
 mod recorder;
 mod run;
 
 #[doc(hidden)]
 pub use cost::{Forecast, estimate, forecast, mean_pace};
+pub use grid_points::{GridPoints, State};
 #[doc(hidden)]
 pub use ledger::JOURNAL;
 pub use ledger::{Kept, Ledger};
-pub use read_points::ReadPoints;
 #[doc(hidden)]
 pub use recorder::{Make, Recorder};
 pub use run::{Beside, Task, Work, run, to_run};
+pub(crate) use run::{observed, side_by_side};
 
 use crate::campaign::other_kernel;
 use brinell_io::IoError;

@@ -1,6 +1,5 @@
 //! The observer of a recorded run: writes rows to files, and reports the time to its listener.
 
-use crate::listener::RunListener;
 use brinell::channel::Frame;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{Complete, IoError, Outcome, SignalWriter};
@@ -13,9 +12,12 @@ pub struct Recorder<'a> {
     make: &'a Make,
     writers: Vec<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
-    listener: &'a mut dyn RunListener,
+    listener: &'a mut At<'a>,
     beside: Option<&'a mut dyn Observer>,
 }
+
+/// Gets the simulated time that the run reached, s, and may break it off.
+type At<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
 /// Begins the files of a run.
 pub type Make = dyn Fn() -> Result<Vec<Box<dyn SignalWriter>>, IoError>;
@@ -25,7 +27,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// Where a file cannot be begun.
-    pub fn new(simulation: &Simulation, make: &'a Make, listener: &'a mut dyn RunListener) -> Result<Self, IoError> {
+    pub fn new(simulation: &Simulation, make: &'a Make, listener: &'a mut At<'a>) -> Result<Self, IoError> {
         Ok(Self {
             row: vec![0.0; simulation.channels().len() + 1],
             sample_rate: simulation.sample_rate(),
@@ -115,6 +117,6 @@ impl Observer for Recorder<'_> {
     }
 
     fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        self.listener.at(t)
+        (self.listener)(t)
     }
 }

@@ -89,52 +89,65 @@ pub fn run<W: Work>(
     threads: NonZeroUsize,
     listener: &dyn Listener,
 ) -> Result<ControlFlow<()>, W::Error> {
-    let (mut flow, mut failure) = (ControlFlow::Continue(()), None);
+    let make = |k: usize| one(k, &tasks[k], work, listener);
+    side_by_side(tasks.len(), threads, make, |k, row| {
+        let failed = row.result.as_ref().err().cloned();
+        ledger.add(row)?;
+        listener.ended(k, failed.as_deref());
+        Ok(())
+    })
+}
+
+/// Makes each of `count` things, up to `threads` at a time, and hands it to `keep` on this thread. Once one is broken
+/// off (`None`) or an error is there, no other begins; the first error is given.
+pub(crate) fn side_by_side<T: Send, E: Send>(
+    count: usize,
+    threads: NonZeroUsize,
+    make: impl Fn(usize) -> Result<Option<T>, E> + Sync,
+    mut keep: impl FnMut(usize, T) -> Result<(), E>,
+) -> Result<ControlFlow<()>, E> {
+    let mut outcome = Ok(ControlFlow::Continue(()));
     let stop = AtomicBool::new(false);
-    brinell::many::each(
-        tasks.len(),
-        threads,
-        |k| one(k, &tasks[k], work, listener, &stop),
-        |k, result| {
-            let kept = match result {
-                Ok(Some(row)) if failure.is_none() => {
-                    let failed = row.result.as_ref().err().cloned();
-                    let kept = ledger.add(row).map_err(W::Error::from);
-                    if kept.is_ok() {
-                        listener.ended(k, failed.as_deref());
-                    }
-                    kept
-                }
-                Ok(Some(_)) => Ok(()),
-                Ok(None) => {
-                    flow = ControlFlow::Break(());
-                    Ok(())
-                }
-                Err(error) => Err(error),
-            };
-            failure = failure.take().or(kept.err());
-            if failure.is_some() {
+    let make = |k| {
+        let made = if stop.load(Ordering::Relaxed) { Ok(None) } else { make(k) };
+        // A full disk fails every run to come as well.
+        stop.fetch_or(!matches!(made, Ok(Some(_))), Ordering::Relaxed);
+        made
+    };
+    brinell::many::each(count, threads, make, |k, made| {
+        let Ok(flow) = &mut outcome else { return };
+        match made.and_then(|made| made.map(|made| keep(k, made)).transpose()) {
+            Ok(Some(())) => {}
+            Ok(None) => *flow = ControlFlow::Break(()),
+            Err(error) => {
                 stop.store(true, Ordering::Relaxed);
+                outcome = Err(error);
             }
-        },
-    );
-    match failure {
-        Some(failure) => Err(failure),
-        None => Ok(flow),
+        }
+    });
+    outcome
+}
+
+/// Run `k` to its end, observed by `beside`; its rows go to the files that `make` begins, which are there where it was
+/// not broken off.
+pub(crate) fn observed(
+    k: usize,
+    (scenario, simulation): (Scenario, Simulation),
+    make: &Make,
+    beside: Option<&mut dyn Observer>,
+    listener: &dyn Listener,
+) -> Result<RunResult, RunnerError> {
+    let mut hearer = listener.begin(k, scenario.simulation.duration_s);
+    let mut recorder = Recorder::new(&simulation, make, &mut *hearer)?.beside(beside.map(|beside| beside as _));
+    let finished = finish(scenario, simulation, &mut recorder);
+    for file in recorder.close(&finished.outcome.end, false)? {
+        file.publish()?;
     }
+    Ok(finished)
 }
 
 /// One task; `None` where it was broken off.
-fn one<W: Work>(
-    k: usize,
-    task: &Task,
-    work: &W,
-    listener: &dyn Listener,
-    stop: &AtomicBool,
-) -> Result<Option<Row>, W::Error> {
-    if stop.load(Ordering::Relaxed) {
-        return Ok(None);
-    }
+fn one<W: Work>(k: usize, task: &Task, work: &W, listener: &dyn Listener) -> Result<Option<Row>, W::Error> {
     let row = |result, warnings| Row {
         settings: task.settings.clone(),
         scenario: task.fingerprint.clone(),
@@ -151,28 +164,17 @@ fn one<W: Work>(
         Err(error) => return Ok(Some(row(Err(error.to_string()), Vec::new()))),
     };
     let files = work.signals(task, &simulation)?;
-    let mut hearer = listener.begin(k, task.duration_s);
     let mut beside = work.beside(task, &simulation);
-    let mut recorder = Recorder::new(&simulation, &*files, hearer.as_mut())
-        .map_err(RunnerError::from)?
-        .beside(beside.as_deref_mut().map(|other| other as &mut dyn Observer));
-    let finished = finish(scenario, simulation, &mut recorder);
-    let files = recorder.close(&finished.outcome.end, false);
-    for file in files.map_err(RunnerError::from)? {
-        file.publish().map_err(RunnerError::from)?;
-    }
-    let numbers = match &finished.outcome.end {
-        End::Stopped => {
-            stop.store(true, Ordering::Relaxed);
-            return Ok(None);
-        }
-        End::Failed(error) => Err(error.to_string()),
-        End::Complete => {
-            let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
-            Ok([finished.quantities(), besides].concat())
-        }
-    };
+    let observer = beside.as_deref_mut().map(|other| other as &mut dyn Observer);
+    let finished = observed(k, (scenario, simulation), &*files, observer, listener)?;
     let RunResult { scenario, simulation, outcome, findings } = &finished;
-    let warnings = if numbers.is_ok() { after(scenario, simulation, outcome, findings) } else { Vec::new() };
-    Ok(Some(row(numbers, warnings)))
+    Ok(match &outcome.end {
+        End::Stopped => None,
+        End::Failed(error) => Some(row(Err(error.to_string()), Vec::new())),
+        End::Complete => {
+            let warnings = after(scenario, simulation, outcome, findings);
+            let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
+            Some(row(Ok([finished.quantities(), besides].concat()), warnings))
+        }
+    })
 }

@@ -2,52 +2,47 @@
 
 use super::axis::Axis;
 use super::error::{MOST_POINTS, PlanError};
-use super::row::digest;
-use serde_json::{Value, json};
-
-/// What is wrong with keys of which one is part of the other.
-pub(crate) const INSIDE: &str = "lie one inside the other, and would overwrite each other";
+use super::row::{digest, in_json};
+use serde::Serialize;
+use serde_json::Value;
 
 /// Whether a key is another one, or one inside it.
 pub fn is_inside(key: &str, other: &str) -> bool {
     key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// The first two keys that set the same: a key twice, or one inside the other.
-pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>) -> Option<[&'a str; 2]> {
+/// That no two keys set the same: a key twice, of which `twice` is said, or one inside the other.
+pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>, twice: &str) -> Result<(), PlanError> {
     let mut before: Vec<&str> = Vec::new();
     for key in keys {
         if let Some(other) = before.iter().find(|other| is_inside(key, other) || is_inside(other, key)) {
-            return Some([other, key]);
+            return Err(PlanError::Refused(match *other == key {
+                true => format!("{key} {twice}"),
+                false => format!("{other} and {key} lie one inside the other, and would overwrite each other"),
+            }));
         }
         before.push(key);
     }
-    None
+    Ok(())
 }
 
 /// Every combination of the settings of some axes. The last axis changes from point to point, the first one slowest.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Plan {
+pub struct Grid {
     axes: Vec<Axis>,
 }
 
-impl Plan {
+impl Grid {
     /// Of axes; without any it has one point, which changes nothing.
     ///
     /// # Errors
     /// Where two axes set one key, or one inside the other, or there are more than 100 000 points.
     pub fn new(axes: Vec<Axis>) -> Result<Self, PlanError> {
-        match clash(axes.iter().flat_map(Axis::keys).map(String::as_str)) {
-            Some([key, again]) if key == again => return Err(PlanError::Twice(key.into())),
-            Some([first, second]) => {
-                return Err(PlanError::Keys { first: first.into(), second: second.into(), why: INSIDE.into() });
-            }
-            None => {}
-        }
+        clash(axes.iter().flat_map(Axis::keys).map(String::as_str), "varies twice; each key varies in one place")?;
         // At most 100000^axes: a command line is too short to overflow this, and saturation would still refuse.
         let points = axes.iter().fold(1_u128, |product, axis| product.saturating_mul(axis.settings().len() as u128));
         if points > MOST_POINTS as u128 {
-            return Err(PlanError::TooMany { points });
+            return Err(PlanError::Refused(format!("{points} points\n  allowed: 1 to {MOST_POINTS} points")));
         }
         Ok(Self { axes })
     }
@@ -70,7 +65,7 @@ impl Plan {
     /// Which setting of each axis a point has.
     ///
     /// # Panics
-    /// Where the point is not below [`Plan::points`].
+    /// Where the point is not below [`Grid::points`].
     pub fn place(&self, point: usize) -> Vec<usize> {
         assert!(point < self.points(), "point {point} of {}", self.points());
         let mut rest = point;
@@ -92,16 +87,20 @@ impl Plan {
     /// none of a bad one.
     #[doc(hidden)]
     pub fn header<'a>(&self, scenarios: impl Iterator<Item = Option<&'a str>>) -> Value {
-        let axis = |axis: &Axis| json!({ "keys": axis.keys(), "settings": axis.settings() });
-        let axes: Vec<Value> = self.axes.iter().map(axis).collect();
+        #[derive(Serialize)]
+        struct Head<'a> {
+            campaign: &'a str,
+            plan: &'a [Axis],
+            scenarios: String,
+        }
         let scenarios: Vec<&str> = scenarios.map(|s| s.unwrap_or("bad")).collect();
-        json!({ "campaign": "sweep", "plan": axes, "scenarios": digest(&scenarios.join(" ")) })
+        in_json(&Head { campaign: "sweep", plan: &self.axes, scenarios: digest(&scenarios.join(" ")) })
     }
 
     /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].
     ///
     /// # Panics
-    /// As [`Plan::place`].
+    /// As [`Grid::place`].
     pub fn settings(&self, point: usize) -> Vec<(String, String)> {
         let chosen = self.axes.iter().zip(self.place(point));
         chosen
@@ -117,8 +116,8 @@ impl Plan {
 mod tests {
     use super::*;
 
-    fn plan(axes: &[&str]) -> Result<Plan, PlanError> {
-        Plan::new(axes.iter().map(|text| Axis::vary(text).unwrap()).collect())
+    fn plan(axes: &[&str]) -> Result<Grid, PlanError> {
+        Grid::new(axes.iter().map(|text| Axis::vary(text).unwrap()).collect())
     }
 
     #[test]
