@@ -124,7 +124,7 @@ pub(crate) fn orders(
             None => "the bearing given".into(),
         };
         let own = orders_of(&run.scenario.bearing);
-        orders.doubts.extend(other_bearing(&asked, &orders.value, &own, request.tolerance));
+        orders.doubts.extend(other_bearing(&asked, &orders.value, &own, request.tolerance()));
     }
     Ok(orders)
 }

@@ -1,11 +1,12 @@
 //! What the things that may be given are called by whoever asks for them.
 
 /// Who asks: a command with options, a page with fields, Python with keyword arguments.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Called {
     /// `--rate`; options of another signal begin with this word: `against-`.
     Options(&'static str),
     /// `sample rate`.
+    #[default]
     Fields,
     /// `rate_hz`.
     Keywords,

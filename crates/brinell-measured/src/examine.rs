@@ -47,7 +47,8 @@ pub fn examine(mut measurement: Measurement, request: &Request) -> Result<Findin
         let name = bearing.map_or("", Asked::name);
         let orders = orders(request, *bearing, measurement.run.as_deref(), shaft)?;
         let options = options(&measurement, request, orders.value)?;
-        reading = reading.or_else(|| measurement.beyond.take().map(Beyond::start));
+        reading = reading
+            .or_else(|| measurement.beyond.take().and_then(|beyond| beyond.into_inner().ok()).map(Beyond::start));
         let analysis = look(&measurement, &options)?;
         let all: Vec<&[f64]> = measurement.records().map(|record| &record.x[..]).collect();
         let levels = Levels::of(&all, &measurement.unit.value, &analysis, request.machine_class);
@@ -118,7 +119,7 @@ fn options(
 ) -> Result<Options, Problem> {
     let turning = measurement.speed.as_ref().map(|speed| &speed.value);
     let mut options = Options::new(turning.map_or(0.0, Turning::shaft), orders);
-    options.tolerance = request.tolerance;
+    options.tolerance = request.tolerance();
     options.silent = measurement.silent;
     let is_asked = request.speed.is_some() || request.names_a_bearing();
     options.exact = request.simulated || (measurement.run.is_some() && !is_asked);
@@ -134,7 +135,7 @@ fn beside_own_run(measurement: &mut Measurement, request: &Request, analysis: &m
     let Some(run) = measurement.run.as_deref().filter(|_| analysis.options.exact && !request.healthy) else {
         return;
     };
-    if !request.simulates && !run.scenario.defects.is_empty() {
+    if request.in_haste && !run.scenario.defects.is_empty() {
         return;
     }
     let stretch =

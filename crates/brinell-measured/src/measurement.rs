@@ -3,12 +3,12 @@
 use crate::called::Called;
 use crate::channel::channel;
 use crate::known::{Known, Source};
-use crate::problem::{Problem, Question};
+use crate::problem::{NoRateStated, Problem, Question};
 use crate::rate::rate;
-use crate::request::Request;
-use crate::speed::{Turning, speed, states_speed};
+use crate::request::{MOST, Request};
+use crate::speed::{Turning, given, of_pulses, speed, states_speed};
 use crate::stretch::{Beyond, Part, scale, stretch};
-use crate::unit::{Given, beyond_full_scale, unit};
+use crate::unit::{beyond_full_scale, unit};
 use brinell::analysis::{AnalysisError, Flaw, Unit, repetition};
 use brinell::channel::unit_of_run;
 use brinell::document::{Loaded, read};
@@ -16,6 +16,7 @@ use brinell::signal::short;
 use brinell_io::{Channel, FileKind, Format, SignalFile, open};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 /// A stretch of one channel, with everything that is known of it.
 pub struct Measurement {
@@ -39,8 +40,9 @@ pub struct Measurement {
     pub warnings: Vec<String>,
     /// What is warned of where the file repeats one stretch, to which `x` is cut.
     pub repeats: Option<String>,
-    /// What lies beyond the stretch, where the signal is longer than one analysis takes.
-    pub(crate) beyond: Option<Beyond>,
+    /// What lies beyond the stretch, where the signal is longer than one analysis takes; locked, so that threads may share
+    /// findings.
+    pub(crate) beyond: Option<Mutex<Beyond>>,
     /// The scenario of the run that made the file.
     pub run: Option<Box<Loaded>>,
     /// What the sensor of a run lacks of a machine's noise, in the signal's unit.
@@ -74,12 +76,12 @@ impl Measurement {
         let skip = (start * hz).round() as usize;
         let most = match request.duration {
             Some(d) => ((d * hz).round() as usize).max(1),
-            None => request.most,
+            None => request.most.unwrap_or(MOST),
         };
         let part = Part { skip, most, rate: hz, called };
         let (mut x, more) = stretch(&mut file, name, part, &mut warnings)?;
         finite(&mut file, name, &x, part)?;
-        warnings.extend(beyond_full_scale(&x, of.stored_as, &Given::of(request), called));
+        warnings.extend(beyond_full_scale(&x, of.stored_as, request));
         scale(&mut x, factor);
         let long = more && request.duration.is_none();
         if x.is_empty() {
@@ -104,7 +106,7 @@ impl Measurement {
         let speed = speed(&mut file, request, run.as_deref(), (name, &of), (start, seconds, hz))?;
         let silent = run.as_deref().and_then(|run| unit.value.missing_noise(run.scenario.sensor.noise_rms()));
         let mut measurement = Self {
-            beyond: long.then(|| Beyond { file, name: name.clone(), skip, rate: hz, factor }),
+            beyond: long.then(|| Mutex::new(Beyond { file, name: name.clone(), skip, rate: hz, factor })),
             path,
             channel,
             rate,
@@ -125,24 +127,48 @@ impl Measurement {
         Ok(measurement)
     }
 
-    /// Samples that are in no file, at a rate (Hz) and in a unit.
-    pub fn of_samples(name: &str, x: Vec<f64>, rate: Known<f64>, unit: Known<Unit>, speed: Known<Turning>) -> Self {
-        Self {
+    /// Samples that are in no file, and what the numbers were multiplied by to be in their unit. A run that made them
+    /// comes with the channel's name and where they begin, s; pulses for the speed with their rate, Hz, and how many
+    /// come a turn.
+    ///
+    /// # Errors
+    /// As [`Measurement::open`].
+    pub fn of_samples(
+        mut x: Vec<f64>,
+        request: &Request,
+        run: Option<(Box<Loaded>, String, f64)>,
+        pulses: Option<(Vec<f64>, f64, u32)>,
+    ) -> Result<(Self, f64), Problem> {
+        let called = request.called;
+        let missing = |question: Question| Problem::Given(question.words(called));
+        let (run, name, start) = run.map_or((None, "signal".into(), 0.0), |(run, name, from)| (Some(run), name, from));
+        let hz = request.rate.ok_or_else(|| missing(Question::Rate(NoRateStated::Nothing)))?;
+        let rate = Known::by(hz, Source::Given).noted(format!("sample rate {hz} Hz, {}", Source::Given));
+        let scaled = unit(&name, &Channel::default(), false, request, run.as_deref())?.map_err(missing)?;
+        scale(&mut x, scaled.factor);
+        let seconds = x.len() as f64 / hz;
+        let speed = match (request.speed, pulses) {
+            (Some(speed), _) => Some(given(request, speed, None)),
+            (None, Some(pulses)) => Some(of_pulses(&pulses, seconds, called)?),
+            (None, None) => None,
+        };
+        let measurement = Self {
             path: PathBuf::new(),
-            channel: Known::by(name.to_owned(), Source::Given),
+            channel: Known::by(name, Source::Given),
             rate,
-            unit,
-            speed: Some(speed),
+            unit: scaled.unit,
+            speed,
             x,
-            start: 0.0,
+            start,
             notes: Vec::new(),
             warnings: Vec::new(),
             repeats: None,
             beyond: None,
-            run: None,
+            run,
             silent: None,
             others: Vec::new(),
-        }
+        };
+        Ok((measurement, scaled.factor))
     }
 
     /// Itself and the others.

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 pub const MOST: usize = 1 << 22;
 
 /// What was given, and what is wanted; the rest is for the file to state.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Request {
     /// How problems call what was given.
     pub called: Called,
@@ -34,8 +34,8 @@ pub struct Request {
     pub start: Option<f64>,
     /// Its length, s.
     pub duration: Option<f64>,
-    /// Most samples where no length is given.
-    pub most: usize,
+    /// Most samples where no length is given, in place of [`MOST`].
+    pub most: Option<usize>,
     /// What a file that states less is taken to be like.
     pub like: Option<Like>,
     /// Whether a verdict is wanted, which takes a speed and a bearing.
@@ -52,8 +52,8 @@ pub struct Request {
     pub elements: Elements,
     /// BPFO, BPFI, BSF and FTF: in Hz, or with x multiples of the shaft's frequency.
     pub frequencies: [Option<String>; 4],
-    /// How far slip and an inexact speed may move a defect frequency, relative.
-    pub tolerance: f64,
+    /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 otherwise.
+    pub tolerance: Option<f64>,
     /// Range to demodulate.
     pub band: Option<Band>,
     /// Frequency of the motor's supply, Hz.
@@ -66,8 +66,8 @@ pub struct Request {
     pub healthy: bool,
     /// Whether a simulation made the signal, whatever the file says.
     pub simulated: bool,
-    /// Whether a run may be simulated anew without its damage, to judge it beside that.
-    pub simulates: bool,
+    /// Whether there is no time to simulate a run anew without its damage, to judge it beside that.
+    pub in_haste: bool,
 }
 
 /// A shaft speed that was given.
@@ -93,35 +93,7 @@ pub struct Like {
 impl Request {
     /// Nothing given, and no verdict wanted.
     pub fn new(called: Called) -> Self {
-        Self {
-            called,
-            channel: None,
-            rate: None,
-            time_channel: None,
-            time_unit: None,
-            unit: None,
-            sensitivity: None,
-            full_scale: None,
-            start: None,
-            duration: None,
-            most: MOST,
-            like: None,
-            judged: false,
-            speed: None,
-            speed_channel: None,
-            tacho: None,
-            bearings: Vec::new(),
-            elements: Elements::default(),
-            frequencies: [const { None }; 4],
-            tolerance: 0.02,
-            band: None,
-            supply: None,
-            machine_class: None,
-            against: None,
-            healthy: false,
-            simulated: false,
-            simulates: true,
-        }
+        Self { called, ..Self::default() }
     }
 
     /// That numbers are in their ranges, as far as no signal is needed to say so.
@@ -138,6 +110,10 @@ impl Request {
             }
             _ => Ok(()),
         }
+    }
+
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance.unwrap_or(0.02)
     }
 
     /// Whether anything says which bearing it is.

@@ -81,7 +81,7 @@ pub(crate) fn given(
     stated: Option<&Stated>,
 ) -> Known<Turning> {
     let asked = request.called.number("speed", rpm);
-    let other = stated.and_then(|(stated, place)| other_speed(&asked, rpm, stated.rpm, place, request.tolerance));
+    let other = stated.and_then(|(stated, place)| other_speed(&asked, rpm, stated.rpm, place, request.tolerance()));
     let turning = Turning { is_bare, other, ..Turning::steady(rpm) };
     let doubt = (turning.may_be_hz())
         .then(|| format!("{asked}: {rpm} r/min is {:.2} Hz; if it is in Hz write {rpm}Hz", rpm / 60.0));
@@ -124,6 +124,24 @@ pub(crate) fn stated(
         return Ok(Some((Turning::steady(mean), place.into())));
     }
     followed(mean, course, place, "operation.speed_rpm", request.called).map(Some)
+}
+
+/// By pulses that are in no file, with their rate, Hz, and how many come a turn; they last as long as the signal.
+pub(crate) fn of_pulses(
+    (x, rate, a_turn): &(Vec<f64>, f64, u32),
+    seconds: f64,
+    called: Called,
+) -> Result<Known<Turning>, Problem> {
+    let refused = |why: String| Problem::Signal(format!("{}: {why}", called.name("tacho")));
+    let covers = x.len() as f64 / rate;
+    if (covers / seconds - 1.0).abs() > 0.02 {
+        return Err(refused(format!("its {} values last {covers:.3} s and the signal {seconds:.3} s", x.len())));
+    }
+    let speeds = speed_by_pulses(x, *rate, *a_turn).map_err(|why| refused(why.to_string()))?;
+    let speeds: Vec<f64> = speeds.into_iter().map(|hz| 60.0 * hz).collect();
+    let rpm = speeds.iter().sum::<f64>() / speeds.len() as f64;
+    let turning = Turning { course: course(&speeds, *rate, rpm), ..Turning::steady(rpm) };
+    Ok(Known::by(turning, Source::File(format!("the pulses of {}", called.name("tacho")))))
 }
 
 /// A channel that was named, of speeds or of pulses.

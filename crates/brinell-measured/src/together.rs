@@ -83,8 +83,8 @@ fn alike(request: &Request, first: (&Measurement, f64), other: (&Measurement, f6
         let (unit, expected) = (&other.unit.value.name, &first.unit.value.name);
         return Err(refused(other, &format!("unit {unit}, expected {expected}, that of {of_first}")));
     }
-    if (own / shaft - 1.0).abs() > request.tolerance {
-        let most = (1e8 * request.tolerance).round() / 1e6;
+    if (own / shaft - 1.0).abs() > request.tolerance() {
+        let most = (1e8 * request.tolerance()).round() / 1e6;
         return Err(refused(
             other,
             &format!(

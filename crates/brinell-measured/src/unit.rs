@@ -1,6 +1,5 @@
 //! What a recorded signal's numbers are in, and what they are multiplied by to be in it.
 
-use crate::called::Called;
 use crate::known::{Known, Source};
 use crate::problem::{Problem, Question};
 use crate::request::Request;
@@ -9,30 +8,6 @@ use brinell::channel::unit_of_run;
 use brinell::document::Loaded;
 use brinell::signal::short;
 use brinell_io::Channel;
-
-/// What a record says of the numbers of a channel.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Numbers<'a> {
-    /// The channel's name.
-    pub(crate) name: &'a str,
-    /// The unit that is stated.
-    pub(crate) unit: Option<&'a str>,
-    /// How a number is stored, in NumPy's words.
-    pub(crate) stored_as: &'a str,
-    /// Whether numbers are parts of a full scale, as in a WAV.
-    pub(crate) is_wav: bool,
-}
-
-/// What was given of them, as it was written.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Given<'a> {
-    /// Unit of the numbers, or of the sensor's output.
-    pub(crate) unit: Option<&'a str>,
-    /// Of the sensor: `100mV/g`.
-    pub(crate) sensitivity: Option<&'a str>,
-    /// What the largest number means: `5V`.
-    pub(crate) full_scale: Option<&'a str>,
-}
 
 /// A unit, and what the numbers are multiplied by to be in it.
 #[derive(Debug)]
@@ -49,27 +24,7 @@ impl Scaled {
     }
 }
 
-/// Why there is no unit: it has to be asked for, in words, or what was given cannot be.
-#[derive(Debug)]
-pub(crate) enum NoUnit {
-    /// Nobody states it.
-    Missing(String),
-    /// What was given cannot be.
-    Refused(String),
-}
-
-impl<'a> Given<'a> {
-    /// Of a request.
-    pub(crate) fn of(request: &'a Request) -> Self {
-        Self {
-            unit: request.unit.as_deref(),
-            sensitivity: request.sensitivity.as_deref(),
-            full_scale: request.full_scale.as_deref(),
-        }
-    }
-}
-
-/// The unit of a channel of a file; `Err` within asks for it.
+/// The unit of a channel; `Err` within asks for it.
 pub(crate) fn unit(
     name: &str,
     channel: &Channel,
@@ -77,51 +32,22 @@ pub(crate) fn unit(
     request: &Request,
     run: Option<&Loaded>,
 ) -> Result<Result<Scaled, Question>, Problem> {
-    let numbers = Numbers { name, unit: channel.unit.as_deref(), stored_as: channel.stored_as, is_wav };
     let called = request.called;
-    if called == Called::Fields && request.unit.is_some() && request.full_scale.is_some() {
-        return Err(Problem::Given("a full scale has its own unit: give it or the unit, not both".into()));
-    }
-    let own = || {
-        let unit = unit_of_run(name, &run?.scenario.sensor)?;
-        let note = format!("unit {unit}, as brinell's own channels have it");
-        Some(Scaled::plain(Unit::of(unit), Source::Assumed, note))
+    let plain = match &request.full_scale {
+        Some(text) => of_full_scale(text, channel, is_wav, request)?,
+        None => match as_written(channel, is_wav, request)?.or_else(|| otherwise(name, request, run)) {
+            Some(plain) => plain,
+            None => return Ok(Err(Question::Unit(asked_for(name, is_wav, request)))),
+        },
     };
-    let alike = || {
-        let unit = request.like.as_ref().filter(|_| request.sensitivity.is_none())?.unit.clone();
-        let note = format!("unit {}, {}; else give {}", unit.name, Source::Like, called.name("unit"));
-        Some(Scaled::plain(unit, Source::Like, note))
-    };
-    match unit_of(&numbers, &Given::of(request), called, own().or_else(alike)) {
-        Ok(scaled) => Ok(Ok(scaled)),
-        Err(NoUnit::Missing(words)) => Ok(Err(Question::Unit(words))),
-        Err(NoUnit::Refused(words)) => Err(Problem::Given(words)),
-    }
-}
-
-/// The unit of a record's numbers. `otherwise` is what they are taken to be in where neither the record nor anybody
-/// says.
-///
-/// # Errors
-/// [`NoUnit`].
-pub(crate) fn unit_of(
-    numbers: &Numbers,
-    given: &Given,
-    called: Called,
-    otherwise: Option<Scaled>,
-) -> Result<Scaled, NoUnit> {
-    let plain = match given.full_scale {
-        Some(text) => of_full_scale(text, numbers, called)?,
-        None => as_written(numbers, given, called, otherwise)?,
-    };
-    let Some(text) = given.sensitivity else {
-        return Ok(plain);
+    let Some(text) = &request.sensitivity else {
+        return Ok(Ok(plain));
     };
     let Scaled { unit: Known { value: unit, source, mut notes, doubts }, factor: of_numbers } = plain;
     let sensitivity =
-        Sensitivity::given(text).map_err(|error| NoUnit::Refused(format!("{} {error}", called.name("sensitivity"))))?;
+        Sensitivity::given(text).map_err(|error| Problem::Given(format!("{} {error}", called.name("sensitivity"))))?;
     let Some(factor) = sensitivity.factor(&unit) else {
-        let cure = match (unit.quantity, numbers.is_wav) {
+        let cure = match (unit.quantity, is_wav) {
             (Quantity::Other, true) => {
                 let scale = called.name("full-scale");
                 format!("; give {scale}, such as {scale} 5V, in place of the unit")
@@ -129,16 +55,27 @@ pub(crate) fn unit_of(
             (Quantity::Other, false) => format!("; is it {}?", called.text("unit", "V")),
             _ => String::new(),
         };
-        return Err(NoUnit::Refused(format!(
-            "{}: expected a signal that is a {}, and `{}` is in {}{cure}",
+        return Err(Problem::Given(format!(
+            "{}: expected a signal that is a {}, and `{name}` is in {}{cure}",
             called.text("sensitivity", text),
             sensitivity.output.quantity.words().to_lowercase(),
-            numbers.name,
             unit.name
         )));
     };
     notes.push(format!("sensitivity {}, as given: the signal is in {}", sensitivity.words(), sensitivity.of.name));
-    Ok(Scaled { unit: Known { value: sensitivity.of, source, notes, doubts }, factor: of_numbers * factor })
+    Ok(Ok(Scaled { unit: Known { value: sensitivity.of, source, notes, doubts }, factor: of_numbers * factor }))
+}
+
+/// What the numbers are taken to be in where neither the file nor anybody says: as a run writes them, or as the other
+/// signal's.
+fn otherwise(name: &str, request: &Request, run: Option<&Loaded>) -> Option<Scaled> {
+    if let Some(unit) = run.and_then(|run| unit_of_run(name, &run.scenario.sensor)) {
+        let note = format!("unit {unit}, as brinell's own channels have it");
+        return Some(Scaled::plain(Unit::of(unit), Source::Assumed, note));
+    }
+    let unit = request.like.as_ref().filter(|_| request.sensitivity.is_none())?.unit.clone();
+    let note = format!("unit {}, {}; else give {}", unit.name, Source::Like, request.called.name("unit"));
+    Some(Scaled::plain(unit, Source::Like, note))
 }
 
 /// What a full scale is in a WAV's numbers: as far as its integers reach, 1 for floats.
@@ -155,61 +92,64 @@ fn largest(stored_as: &str) -> f64 {
 /// Beyond the full scale by so much, a value is worth a word: floats may go over it a little.
 const BEYOND: f64 = 1.1;
 
-/// A warning, where numbers as the record has them, `stored_as`, go far beyond the full scale that was given.
-pub(crate) fn beyond_full_scale(numbers: &[f64], stored_as: &str, given: &Given, called: Called) -> Option<String> {
-    let text = given.full_scale?;
+/// A warning, where numbers as the file has them, `stored_as`, go far beyond the full scale that was given.
+pub(crate) fn beyond_full_scale(numbers: &[f64], stored_as: &str, request: &Request) -> Option<String> {
+    let text = request.full_scale.as_deref()?;
     let times = numbers.iter().fold(0.0, |most: f64, v| most.max(v.abs())) / largest(stored_as);
     (times > BEYOND).then(|| {
         format!(
             "{}: the largest value is {} times full scale; if the numbers are in a unit already, give {} in its place",
-            called.text("full-scale", text),
+            request.called.text("full-scale", text),
             short(times, 3),
-            called.name("unit")
+            request.called.name("unit")
         )
     })
 }
 
-fn of_full_scale(text: &str, numbers: &Numbers, called: Called) -> Result<Scaled, NoUnit> {
+fn of_full_scale(text: &str, channel: &Channel, is_wav: bool, request: &Request) -> Result<Scaled, Problem> {
+    let called = request.called;
     let FullScale { value, unit } =
-        FullScale::given(text).map_err(|error| NoUnit::Refused(format!("{} {error}", called.name("full-scale"))))?;
-    let refuse = |why: String| Err(NoUnit::Refused(format!("{}: {why}", called.text("full-scale", text))));
-    if !numbers.is_wav {
+        FullScale::given(text).map_err(|error| Problem::Given(format!("{} {error}", called.name("full-scale"))))?;
+    let refuse = |why: String| Err(Problem::Given(format!("{}: {why}", called.text("full-scale", text))));
+    if request.unit.is_some() {
+        return refuse(format!("it has its own unit: give it or {}, not both", called.name("unit")));
+    }
+    if !is_wav {
         let unit = called.name("unit");
         return refuse(format!("only a WAV's numbers are parts of a full scale; of another file give {unit}"));
     }
-    if let Some(stated) = numbers.unit {
+    if let Some(stated) = &channel.unit {
         return refuse(format!("the file says that its numbers are in {stated}"));
     }
-    let factor = value / largest(numbers.stored_as);
+    let factor = value / largest(channel.stored_as);
     let note = format!(
         "full scale {value} {}, as given: 1 in the file ({}) is {} {}",
         unit.name,
-        numbers.stored_as,
+        channel.stored_as,
         short(factor, 4),
         unit.name
     );
     Ok(Scaled { factor, ..Scaled::plain(unit, Source::Given, note) })
 }
 
-/// The unit of the numbers as they are in the file.
-fn as_written(numbers: &Numbers, given: &Given, called: Called, otherwise: Option<Scaled>) -> Result<Scaled, NoUnit> {
-    let stated = numbers.unit.map(Unit::of);
-    let Some(text) = given.unit else {
-        if let Some(unit) = stated {
+/// The unit of the numbers as they are in the file, where it or anybody says.
+fn as_written(channel: &Channel, is_wav: bool, request: &Request) -> Result<Option<Scaled>, Problem> {
+    let (stated, called) = (channel.unit.as_deref().map(Unit::of), request.called);
+    let Some(text) = &request.unit else {
+        return Ok(stated.map(|unit| {
             let note = format!("unit {}, from the file", unit.name);
-            return Ok(Scaled::plain(unit, Source::File("the file".into()), note));
-        }
-        return otherwise.ok_or_else(|| NoUnit::Missing(asked_for(numbers, given, called)));
+            Scaled::plain(unit, Source::File("the file".into()), note)
+        }));
     };
     let option = called.text("unit", text);
-    let unit = Unit::given(text).map_err(|error| NoUnit::Refused(format!("{option}: {error}")))?;
-    let largest = largest(numbers.stored_as);
-    if numbers.is_wav && stated.is_none() && largest > 1.0 && unit.name != "counts" {
+    let unit = Unit::given(text).map_err(|error| Problem::Given(format!("{option}: {error}")))?;
+    let largest = largest(channel.stored_as);
+    if is_wav && stated.is_none() && largest > 1.0 && unit.name != "counts" {
         let scale = called.name("full-scale");
-        return Err(NoUnit::Refused(format!(
+        return Err(Problem::Given(format!(
             "{option}: the numbers of this WAV are counts of an ADC ({}, full scale {largest}); what that is in {} \
              the file does not say: give {scale}, such as {scale} {}, or {}",
-            numbers.stored_as,
+            channel.stored_as,
             unit.name,
             if unit.quantity == Quantity::Voltage { "5V".into() } else { format!("10{}", unit.name) },
             called.text("unit", "counts"),
@@ -218,54 +158,60 @@ fn as_written(numbers: &Numbers, given: &Given, called: Called, otherwise: Optio
     let other = stated.filter(|s| s.name != unit.name);
     let doubt = other.map(|s| format!("{} was taken, but the file says {}", called.text("unit", &unit.name), s.name));
     let note = format!("unit {}, as given", unit.name);
-    Ok(Scaled { unit: Known::by(unit, Source::Given).noted(note).doubted(doubt), factor: 1.0 })
+    Ok(Some(Scaled { unit: Known::by(unit, Source::Given).noted(note).doubted(doubt), factor: 1.0 }))
 }
 
 /// The request for a unit.
-fn asked_for(numbers: &Numbers, given: &Given, called: Called) -> String {
-    let [unit, sensitivity, scale] = ["unit", "sensitivity", "full-scale"].map(|key| called.name(key));
-    if numbers.is_wav {
+fn asked_for(name: &str, is_wav: bool, request: &Request) -> String {
+    let [unit, sensitivity, scale] = ["unit", "sensitivity", "full-scale"].map(|key| request.called.name(key));
+    if is_wav {
         return format!(
             "a WAV states no unit; give {scale}, such as {scale} 10g, or {scale} 5V with \
              {sensitivity} 100mV/g; where it is not known {unit} counts"
         );
     }
-    let example = match given.sensitivity {
+    let example = match request.sensitivity {
         Some(_) => format!("{unit} V"),
         None => format!("{unit} g or {unit} m/s^2"),
     };
-    format!("the file states no unit for `{}`; give {unit}, such as {example}", numbers.name)
+    format!("the file states no unit for `{name}`; give {unit}, such as {example}")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::called::Called;
 
-    const WAV: Numbers = Numbers { name: "channel 1", unit: None, stored_as: "int16", is_wav: true };
+    fn of(stated: Option<&str>, request: &Request) -> Result<Result<Scaled, Question>, Problem> {
+        let mut channel = Channel::default();
+        (channel.unit, channel.stored_as) = (stated.map(str::to_owned), "int16");
+        unit("channel 1", &channel, true, request, None)
+    }
 
-    fn of(numbers: &Numbers, given: &Given) -> Result<Scaled, NoUnit> {
-        unit_of(numbers, given, Called::Fields, None)
+    fn request(called: Called, unit: Option<&str>, full_scale: Option<&str>) -> Request {
+        let text = |text: Option<&str>| text.map(str::to_owned);
+        Request { unit: text(unit), full_scale: text(full_scale), ..Request::new(called) }
     }
 
     #[test]
     fn prop_counts_are_no_acceleration_whoever_asks() {
-        let plain = Given { unit: Some("g"), ..Given::default() };
-        let Err(NoUnit::Refused(words)) = of(&WAV, &plain) else { panic!() };
+        let Err(Problem::Given(words)) = of(None, &request(Called::Fields, Some("g"), None)) else { panic!() };
         assert!(words.ends_with("give full scale, such as full scale 10g, or unit counts"), "{words}");
-        let Err(NoUnit::Refused(words)) = unit_of(&WAV, &plain, Called::Options("against-"), None) else { panic!() };
+        let against = request(Called::Options("against-"), Some("g"), None);
+        let Err(Problem::Given(words)) = of(None, &against) else { panic!() };
         assert!(words.starts_with("--against-unit g: ") && words.contains("--against-full-scale 10g"), "{words}");
-        assert!(matches!(of(&WAV, &Given::default()), Err(NoUnit::Missing(_))));
-        let counts = of(&WAV, &Given { unit: Some("counts"), ..Given::default() }).unwrap();
+        assert!(matches!(of(None, &request(Called::Keywords, None, None)), Ok(Err(Question::Unit(_)))));
+        let counts = of(None, &request(Called::Fields, Some("counts"), None)).unwrap().unwrap();
         assert_eq!((counts.factor, counts.unit.value.name.as_str()), (1.0, "counts"));
-        let stated = Numbers { unit: Some("m/s^2"), ..WAV };
-        assert_eq!(of(&stated, &Given::default()).unwrap().unit.value.name, "m/s^2");
+        let stated = of(Some("m/s^2"), &request(Called::Fields, None, None)).unwrap().unwrap();
+        assert_eq!(stated.unit.value.name, "m/s^2");
     }
 
     #[test]
     fn analytic_values_beyond_full_scale_are_warned_of() {
-        let given = Given { full_scale: Some("16g"), ..Given::default() };
+        let given = request(Called::Options(""), None, Some("16g"));
         let said = |numbers: &[f64], stored_as| {
-            beyond_full_scale(numbers, stored_as, &given, Called::Options("")).map(|words| {
+            beyond_full_scale(numbers, stored_as, &given).map(|words| {
                 assert!(words.ends_with("give --unit in its place"), "{words}");
                 words.split(';').next().unwrap_or_default().to_owned()
             })
@@ -274,13 +220,13 @@ mod tests {
         assert_eq!(said(&[32_767.0, -32_768.0], "int16"), None);
         let words = "--full-scale 16g: the largest value is 12.5 times full scale";
         assert_eq!(said(&[0.1, -12.5, f64::NAN], "float32").as_deref(), Some(words));
-        assert_eq!(beyond_full_scale(&[9.0], "float32", &Given::default(), Called::Fields), None);
+        assert_eq!(beyond_full_scale(&[9.0], "float32", &request(Called::Fields, None, None)), None);
     }
 
     #[test]
     fn analytic_full_scale_and_sensitivity_multiply() {
-        let given = Given { full_scale: Some("5V"), sensitivity: Some("100mV/g"), unit: None };
-        let scaled = of(&WAV, &given).unwrap();
+        let given = Request { sensitivity: Some("100mV/g".into()), ..request(Called::Fields, None, Some("5V")) };
+        let scaled = of(None, &given).unwrap().unwrap();
         assert!((scaled.factor * 32_768.0 / 50.0 - 1.0).abs() < 1e-12);
         assert_eq!((scaled.unit.value.name.as_str(), scaled.unit.notes.len()), ("g", 2));
     }

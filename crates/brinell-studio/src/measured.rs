@@ -111,13 +111,13 @@ fn given(request: &Value) -> Answer<Request> {
         full_scale: text("full_scale"),
         start: number("from_s"),
         duration: number("duration_s"),
-        most: usize::MAX,
+        most: Some(usize::MAX),
         judged: true,
         speed: number("rpm").map(|rpm| GivenSpeed { rpm, is_bare: false }),
         speed_channel: text("speed_channel"),
         tacho: text("tacho").map(|name| (name, pulses)),
         bearings: bearing.into_iter().collect(),
-        simulates: false,
+        in_haste: true,
         ..Request::new(Called::Fields)
     })
 }

@@ -180,7 +180,7 @@ impl AnalyzeArgs {
             bearings: self.bearing.iter().map(bearing).collect::<Result<_, Failure>>()?,
             elements: self.elements.numbers(),
             frequencies: [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf].map(Clone::clone),
-            tolerance: 0.01 * self.tolerance,
+            tolerance: Some(0.01 * self.tolerance),
             band: self.band.as_ref().map(|b| Band::between(b[0], b[1])),
             supply: self.supply,
             machine_class: self.machine_class,
