@@ -208,3 +208,15 @@ fn frequency(option: &str, text: &str, shaft: f64, (least, most): (f64, f64)) ->
         "{option}: {order:.4} times the shaft's {shaft:.3} Hz, expected {least} to {most} times for a rolling bearing whose outer ring rests{meant}"
     )))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_another_bearing_is_reported_and_agreement_is_not() {
+        let orders = |bpfo| DefectOrders { bpfo: Some(bpfo), ..DefectOrders::default() };
+        assert_eq!(other_bearing("6205", &orders(3.58), &orders(3.585), 0.02), None);
+        assert!(other_bearing("6205", &orders(3.58), &orders(8.3), 0.02).is_some());
+    }
+}

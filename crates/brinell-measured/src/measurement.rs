@@ -128,23 +128,31 @@ impl Measurement {
     }
 
     /// Samples that are in no file, and what the numbers were multiplied by to be in their unit. A run that made them
-    /// comes with the channel's name and where they begin, s; pulses for the speed with their rate, Hz, and how many
-    /// come a turn.
+    /// comes with the channel's name and unit and where they begin, s; pulses for the speed with their rate, Hz, and how
+    /// many come a turn.
     ///
     /// # Errors
     /// As [`Measurement::open`].
     pub fn of_samples(
         mut x: Vec<f64>,
         request: &Request,
-        run: Option<(Box<Loaded>, String, f64)>,
+        run: Option<(Box<Loaded>, [String; 2], f64)>,
         pulses: Option<(Vec<f64>, f64, u32)>,
     ) -> Result<(Self, f64), Problem> {
         let called = request.called;
         let missing = |question: Question| Problem::Given(question.words(called));
-        let (run, name, start) = run.map_or((None, "signal".into(), 0.0), |(run, name, from)| (Some(run), name, from));
+        let (mut name, mut start, mut of) = ("signal".to_owned(), 0.0, Channel::default());
+        let run = run.map(|(run, [channel, unit], from)| {
+            (name, start, of.unit) = (channel, from, Some(unit));
+            run
+        });
         let hz = request.rate.ok_or_else(|| missing(Question::Rate(NoRateStated::Nothing)))?;
         let rate = Known::by(hz, Source::Given).noted(format!("sample rate {hz} Hz, {}", Source::Given));
-        let scaled = unit(&name, &Channel::default(), false, request, run.as_deref())?.map_err(missing)?;
+        let mut scaled = unit(&name, &of, false, request, run.as_deref())?.map_err(missing)?;
+        if run.is_some() && request.unit.is_none() {
+            scaled.unit.source = Source::File("the run".into());
+            scaled.unit.notes[0] = format!("unit {}, from the run", of.unit.unwrap_or_default());
+        }
         scale(&mut x, scaled.factor);
         let seconds = x.len() as f64 / hz;
         let speed = match (request.speed, pulses) {
@@ -399,4 +407,65 @@ pub fn made_by(file: &SignalFile) -> Option<Box<Loaded>> {
     };
     let text = carried.or_else(beside)?;
     read(&text, &[]).ok().map(Box::new)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::GivenSpeed;
+    use brinell_io::open_bytes;
+
+    #[test]
+    fn prop_a_record_that_repeats_is_cut() {
+        let mut x = [1.0, 2.0, 3.0].repeat(4);
+        let words = once(&mut x, 3.0).unwrap();
+        assert!(words.starts_with("of 4.000 s the record repeats the same 1.000 s"), "{words}");
+        assert_eq!((x.len(), once(&mut vec![1.0, 2.0, 4.0], 1.0)), (3, None));
+    }
+
+    /// What is given goes before what the file states, which is a doubt then; each says whose it is.
+    #[test]
+    fn prop_every_value_has_its_source_and_its_doubt() {
+        let rows: Vec<String> = (0..400).map(|k| format!("{},{}", f64::from(k) / 400.0, k * k % 37)).collect();
+        let text = format!("time [s],acc [g]\n{}\n", rows.join("\n")).into_bytes();
+        let of = |request: &Request| Measurement::of_file(open_bytes("a.csv", text.clone()).unwrap(), request).unwrap();
+        let stated = of(&Request::new(Called::Fields));
+        assert_eq!(stated.channel.source, Source::Assumed);
+        assert_eq!(stated.rate.source, Source::File("the times in `time [s]`".into()));
+        assert_eq!((stated.rate.value, stated.unit.value.name.as_str(), stated.speed), (400.0, "g", None));
+        assert!(stated.rate.doubts.is_empty() && stated.unit.doubts.is_empty());
+        let speed = Some(GivenSpeed { rpm: 25.0, is_bare: true });
+        let given = Request { rate: Some(500.0), unit: Some("mg".into()), speed, ..Request::new(Called::Keywords) };
+        let given = of(&given);
+        let speed = given.speed.as_ref().unwrap();
+        assert_eq!([&given.rate.source, &given.unit.source, &speed.source], [&Source::Given; 3]);
+        assert_eq!(given.rate.doubts, ["rate_hz = 500 Hz was taken, but the column `time [s]` says 400 Hz"]);
+        assert_eq!(given.unit.doubts, ["unit = \"mg\" was taken, but the file says g"]);
+        assert_eq!(speed.doubts, ["speed_rpm = 25: 25 r/min is 0.42 Hz; if it is in Hz write 25Hz"]);
+    }
+
+    /// One question, in the words of whoever asks.
+    #[test]
+    fn prop_what_nobody_states_is_asked_for_at_once() {
+        let text = b"acc\n1\n2\n4\n".to_vec();
+        let asked = |called| {
+            let request = Request { judged: true, ..Request::new(called) };
+            match Measurement::of_file(open_bytes("a.csv", text.clone()).unwrap(), &request) {
+                Err(Problem::Missing { questions, .. }) => {
+                    questions.iter().map(|q| q.words(called)).collect::<Vec<_>>()
+                }
+                _ => panic!(),
+            }
+        };
+        let gives = [
+            (Called::Options(""), ["--rate HZ", "--unit", "--speed RPM", "--bearing NAME"]),
+            (Called::Fields, ["the sample rate in Hz", "unit", "the speed in r/min", "which bearing?"]),
+            (Called::Keywords, ["rate_hz", "unit", "speed_rpm", "bearing"]),
+        ];
+        for (called, gives) in gives {
+            let asked = asked(called);
+            assert_eq!(asked.len(), gives.len(), "{asked:?}");
+            assert!(asked.iter().zip(gives).all(|(words, give)| words.contains(give)), "{asked:?}");
+        }
+    }
 }

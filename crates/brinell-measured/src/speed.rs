@@ -298,3 +298,14 @@ fn prescribed(speed: &Speed, start: f64, seconds: f64) -> (f64, Vec<(f64, f64)>)
     let turned = rotation.at(end).1 - rotation.at(start).1;
     (turned * 30.0 / PI / seconds, course)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_another_speed_is_reported_and_agreement_is_not() {
+        assert_eq!(other_speed("the speed 1800", -1800.0, 1797.0, "it", 0.02), None);
+        assert!(other_speed("the speed 1800", 1800.0, 1730.0, "it", 0.02).is_some());
+    }
+}

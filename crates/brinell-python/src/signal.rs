@@ -310,7 +310,8 @@ pub(crate) fn analyze<'py>(
     };
     request.check().map_err(refused)?;
     let pulses = tacho.map(|(of, rate, a_turn)| (slice(&of).into_owned(), rate, a_turn));
-    let of_run = run.and_then(|(channel, from_s)| Some((Box::new(loaded.clone()?), channel.to_owned(), from_s)));
+    let of_run =
+        run.and_then(|(channel, from_s)| Some((Box::new(loaded.clone()?), [channel, unit].map(str::to_owned), from_s)));
     let own = loaded.filter(|_| simulated).and_then(|loaded| loaded.scenario.sensor.noise_rms());
     let (mut found, factor) = unstoppable(py, move || {
         let (mut m, factor) = Measurement::of_samples(x, &request, of_run, pulses)?;
