@@ -155,7 +155,7 @@ def test_prop_a_verdict_has_a_page_where_it_was_found():
         ({"unit": "V", "sensitivity": "100"}, "100mV/g"),
         ({"unit": "g", "supply_hz": 0.0}, "supply_hz = 0: expected 1 to 1000 Hz"),
         ({"unit": "g", "sensitivity": "100mV/g"}, "expected a signal that is a voltage"),
-        ({"unit": "g", "bpfo": 500.0}, "BPFO of 500.0000 times the shaft's frequency: expected 1 to 200"),
+        ({"unit": "g", "bpfo": 500.0}, "500.0000 times the shaft's 30.000 Hz, expected 1 to 200"),
         ({"unit": "g", "bpfo": 5.0, "bpfi": 4.0}, "BPFO 5.0000x and BPFI 4.0000x"),
     ],
 )

@@ -1,10 +1,8 @@
 //! The command line. Its help teaches.
 
-use crate::failure::Failure;
 use crate::figures::{PlotFormat, Print};
-use brinell::analysis::{DefectOrders, Wording};
-use brinell::bearing::KnownBearing;
 use brinell_io::Format;
+use brinell_measured::GivenSpeed;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -201,31 +199,10 @@ pub(crate) struct Elements {
 }
 
 impl Elements {
-    /// Orders of a bearing by name, with the contact angle given in place of its own; and where they come from.
-    pub(crate) fn of_known(&self, known: KnownBearing) -> Result<(DefectOrders, String), Failure> {
-        let (orders, source) = known.orders().map_err(Failure::Usage)?;
-        let Some(angle) = self.contact_angle else {
-            return Ok((orders, source));
-        };
-        let orders = known.orders_at(angle).map_err(|why| Failure::Usage(format!("--contact-angle {angle}: {why}")))?;
-        Ok((orders, format!("{source}; contact angle {angle} degrees, as given")))
-    }
-
-    /// That no angle is given beside a scenario, which has its own.
-    pub(crate) fn no_angle_of(&self, scenario: &str) -> Result<(), Failure> {
-        match self.contact_angle {
-            None => Ok(()),
-            Some(angle) => Err(Failure::Usage(format!(
-                "--contact-angle {angle}: expected it with a bearing by name; {scenario} is a scenario, which has its own"
-            ))),
-        }
-    }
-
-    /// Their orders, and their numbers in words; `None` where none is given.
-    pub(crate) fn orders(&self) -> Result<Option<(DefectOrders, String)>, Failure> {
-        let names = ["--rollers", "--pitch", "--diameter", "--contact-angle"];
-        let measures = [self.pitch, self.diameter, self.contact_angle];
-        DefectOrders::of_numbers(self.rollers, measures, Wording { names, is: " ", then: " " }).map_err(Failure::Usage)
+    /// As the library has them.
+    pub(crate) fn numbers(&self) -> brinell_measured::Elements {
+        let Self { rollers, pitch, diameter, contact_angle } = *self;
+        brinell_measured::Elements { count: rollers, pitch, diameter, contact_angle }
     }
 }
 
@@ -414,15 +391,6 @@ pub(crate) struct RandomArgs {
     /// Mean depth
     #[arg(long, value_name = "UM", default_value_t = 20.0)]
     pub(crate) depth_um: f64,
-}
-
-/// A shaft speed as given.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct GivenSpeed {
-    /// r/min.
-    pub(crate) rpm: f64,
-    /// Whether it was a number without a unit.
-    pub(crate) is_bare: bool,
 }
 
 /// Reads a shaft speed: r/min, or with a unit of its own.

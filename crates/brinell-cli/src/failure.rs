@@ -12,6 +12,12 @@ pub(crate) const BAD_INPUT: u8 = 2;
 /// Exit code of an interrupted run: 128 + SIGINT, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
 
+impl From<brinell_measured::Problem> for Failure {
+    fn from(problem: brinell_measured::Problem) -> Self {
+        Self::Usage(problem.to_string())
+    }
+}
+
 /// Why the command did not do what was asked.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {

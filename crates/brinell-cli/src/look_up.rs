@@ -9,6 +9,7 @@ use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Entry, FACTS, STAT
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
 use brinell::scenario::{Element, Scenario};
+use brinell_measured::Called;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -249,11 +250,12 @@ struct Asked {
 
 fn asked(args: &FrequenciesArgs) -> Result<Asked, Failure> {
     let of = |(orders, source)| Asked { orders, source, speed_rpm: None };
-    let known = |name: &str| Ok(of(args.elements.of_known(find(name)?)?));
+    let (elements, called) = (args.elements.numbers(), Called::Options(""));
+    let known = |name: &str| Ok(of(elements.of_known(find(name)?, called)?));
     let Some(bearing) = &args.bearing else {
         return match &args.name {
             Some(name) => known(name),
-            None => match args.elements.orders()? {
+            None => match elements.orders(called)? {
             Some(given) => Ok(of(given)),
             None => Err(Failure::Usage(
                 "which bearing? Give a name (`brinell bearing list`), a scenario file, or --rollers, --pitch and --diameter"
@@ -263,11 +265,11 @@ fn asked(args: &FrequenciesArgs) -> Result<Asked, Failure> {
         };
     };
     match scenario_meant(bearing)? {
-        Some(Scenario { bearing: own, operation, .. }) => args.elements.no_angle_of(bearing).map(|()| Asked {
-            orders: orders_of(&own),
-            source: format!("the scenario {bearing}"),
-            speed_rpm: operation.speed_rpm.constant(),
-        }),
+        Some(Scenario { bearing: own, operation, .. }) => {
+            elements.no_angle_of(bearing, called)?;
+            let source = format!("the scenario {bearing}");
+            Ok(Asked { orders: orders_of(&own), source, speed_rpm: operation.speed_rpm.constant() })
+        }
         None => known(bearing),
     }
 }

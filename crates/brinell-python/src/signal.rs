@@ -4,14 +4,9 @@ use crate::bad_value::{bad_value, from_zero};
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::SignalError;
 use crate::wait::unstoppable;
-use brinell::analysis::{
-    Analysis, AnalysisError, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit,
-    Wording, to_json, velocity,
-};
-use brinell::bearing::{KnownBearing, orders_of};
-use brinell::result::{Stretch, beside_healthy};
-use brinell::signal::tacho::{course, speed_by_pulses};
-use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Rotation, Segments, Spectrum, VelocityBands, Window};
+use brinell::analysis::{AnalysisError, MachineClass, to_json};
+use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
+use brinell_measured::{Asked, Called, Elements, GivenSpeed, Measurement, Problem, Request, examine};
 use brinell_report::{AnalysisReport, Analyzed, analysis_html};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -205,36 +200,6 @@ pub(crate) fn indicators<'py>(
     json_to_python(py, &values.into())
 }
 
-/// Orders of the defect frequencies: of a bearing by name, of a scenario, by its numbers, or as given; and where they
-/// come from.
-fn orders(
-    name: Option<&str>,
-    scenario: Option<&crate::scenario::Scenario>,
-    (elements, measures): (Option<i128>, [Option<f64>; 3]),
-    given: [Option<f64>; 4],
-) -> PyResult<(DefectOrders, String)> {
-    let names = ["rollers", "pitch_mm", "diameter_mm", "contact_angle_deg"];
-    let elements = elements.map(|count| from_zero(names[0], count)).transpose()?;
-    let numbers = DefectOrders::of_numbers(elements, measures, Wording { names, is: " = ", then: ", " });
-    let numbers = numbers.map_err(bad_value)?;
-    if numbers.is_some() && (name.is_some() || scenario.is_some()) {
-        return Err(bad_value(format!("bearing and {} are given: leave out the one or the other", names.join(", "))));
-    }
-    let (known, source) = match (name, scenario) {
-        (Some(name), _) => KnownBearing::named(name).and_then(|known| known.orders()).map_err(bad_value)?,
-        (None, Some(scenario)) => {
-            let scenario = &scenario.loaded.scenario;
-            let words = format!("that of the scenario {}", scenario.name);
-            (orders_of(&scenario.bearing), words)
-        }
-        (None, None) => numbers.unwrap_or_default(),
-    };
-    let orders = known.with_given(given).map_err(|error| bad_value(error.to_string()))?;
-    let sources = [Some(source).filter(|words| !words.is_empty()), DefectOrders::given_words(given)];
-    let sources: Vec<String> = sources.into_iter().flatten().collect();
-    Ok((orders, sources.join("; ")))
-}
-
 /// A class of machines by its name.
 fn class(name: &str) -> PyResult<MachineClass> {
     let known = MachineClass::ALL.into_iter().find(|c| c.name() == name);
@@ -244,34 +209,22 @@ fn class(name: &str) -> PyResult<MachineClass> {
     })
 }
 
-/// What a signal in `unit` is multiplied by, what it is in then, and that in words.
-fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit, String)> {
-    let sensitivity = Sensitivity::given(text).map_err(|error| bad_value(format!("sensitivity = {error}")))?;
-    let Some(factor) = sensitivity.factor(unit) else {
-        return Err(bad_value(format!(
-            "sensitivity = \"{text}\": expected a signal that is a {}, and unit = \"{}\"",
-            sensitivity.output.quantity.words().to_lowercase(),
-            unit.name
-        )));
-    };
-    let words = format!("sensitivity {}, as given: the signal is in {}", sensitivity.words(), sensitivity.of.name);
-    Ok((factor, sensitivity.of, words))
+/// Of what was given, or of the signal.
+fn refused(problem: Problem) -> PyErr {
+    match problem {
+        Problem::Signal(why) => failed(why),
+        other => bad_value(other.to_string()),
+    }
 }
 
 /// What was found in a signal, for its page.
 #[pyclass(frozen, module = "brinell._brinell")]
 pub(crate) struct Findings {
     x: Py<PyArray1<f64>>,
-    /// What the array's numbers are multiplied by to be in `unit`.
+    /// What the array's numbers are multiplied by to be in the signal's unit.
     factor: f64,
-    unit: Unit,
-    rate: f64,
-    notes: Vec<String>,
-    speed: String,
-    bearing: String,
-    analysis: Analysis,
-    levels: Levels,
-    velocity: Option<VelocityBands>,
+    /// Without its samples.
+    found: brinell_measured::Findings,
 }
 
 #[pymethods]
@@ -280,48 +233,22 @@ impl Findings {
     fn to_html(&self, py: Python<'_>, title: &str) -> PyResult<String> {
         let array = self.x.bind(py).try_readonly().map_err(bad_value)?;
         let x: Vec<f64> = array.as_array().iter().map(|v| self.factor * v).collect();
-        let (verdict, warnings) = (self.analysis.verdict(), self.analysis.flaws.iter());
-        let warnings: Vec<String> = warnings.map(|(_, flaw)| flaw.to_string()).collect();
+        let (found, lead, m) = (&self.found, self.found.lead(), &self.found.measurement);
         Ok(py.detach(|| {
             analysis_html(&AnalysisReport::of_findings(&brinell_report::Findings {
-                signal: Analyzed { name: title, x: &x, rate: self.rate, analysis: &self.analysis },
-                unit: &self.unit,
-                verdict: &verdict,
-                notes: &self.notes,
-                warnings: &warnings,
-                speed: &self.speed,
-                bearing: &self.bearing,
-                levels: &self.levels,
-                velocity: self.velocity.as_ref(),
+                signal: Analyzed { name: title, x: &x, rate: m.rate.value, analysis: &lead.analysis },
+                unit: &m.unit.value,
+                verdict: &lead.analysis.verdict(),
+                notes: &found.notes,
+                warnings: &found.warnings,
+                speed: &found.speed,
+                bearing: &lead.said_of_bearing(),
+                levels: &lead.levels,
+                velocity: found.velocity.as_ref(),
                 against: None,
             }))
         }))
     }
-}
-
-/// That an inverter's frequency is one.
-fn supply(hz: f64) -> PyResult<f64> {
-    match SUPPLY_HZ.contains(&hz) {
-        true => Ok(hz),
-        false => Err(bad_value(format!("supply_hz = {hz}: expected 1 to 1000 Hz"))),
-    }
-}
-
-/// Mean speed, r/min, by a channel of pulses that lasts as long as the signal, and the shaft's angle where it varies.
-fn by_pulses(x: &[f64], rate_hz: f64, a_turn: u32, seconds: f64) -> PyResult<(f64, Option<Rotation>)> {
-    let refused = |why: String| failed(format!("tacho: {why}"));
-    let covers = x.len() as f64 / rate_hz;
-    if (covers / seconds - 1.0).abs() > 0.02 {
-        return Err(refused(format!("its {} values last {covers:.3} s and the signal {seconds:.3} s", x.len())));
-    }
-    let mut speeds = speed_by_pulses(x, rate_hz, a_turn).map_err(|why| refused(why.to_string()))?;
-    speeds.iter_mut().for_each(|v| *v *= 60.0);
-    let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
-    let points: Vec<(f64, f64)> = course(&speeds, rate_hz, mean).into_iter().map(|(t, rpm)| (t, rpm / 60.0)).collect();
-    let rotation = (!points.is_empty()).then(|| Rotation::from_speeds(&points)).transpose();
-    // A mean has more digits than anybody reads.
-    let mean = (100.0 * mean).round() / 100.0;
-    Ok((mean, rotation.map_err(|why| refused(why.to_string()))?))
 }
 
 /// Which component's defect frequencies are detected: the JSON of `brinell analyze`, the envelope spectrum that shows
@@ -347,78 +274,58 @@ pub(crate) fn analyze<'py>(
     sensitivity: Option<&str>,
     supply_hz: Option<f64>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, Findings)> {
-    let (mut x, array) = (slice(&x).into_owned(), x.as_unbound().clone_ref(py));
-    // A run states its own, of any of its channels.
-    let mut unit = match run {
-        Some(_) => Unit::of(unit),
-        None => Unit::given(unit).map_err(|error| bad_value(format!("unit = \"{unit}\": {error}")))?,
+    let (x, array) = (slice(&x).into_owned(), x.as_unbound().clone_ref(py));
+    let (count, [pitch, diameter, contact_angle]) = elements;
+    let count = count.map(|count| from_zero("rollers", count)).transpose()?;
+    if (count.is_some() || pitch.is_some() || diameter.is_some()) && (bearing.is_some() || scenario.is_some()) {
+        return Err(bad_value(
+            "bearing and rollers, pitch_mm or diameter_mm are given: leave out the one or the others",
+        ));
+    }
+    if speed_rpm.is_some() == tacho.is_some() {
+        return Err(bad_value("speed_rpm: expected either it or tacho"));
+    }
+    let loaded = scenario.map(|scenario| scenario.loaded.clone());
+    let of_scenario = loaded.as_ref().map(|loaded| Asked::Scenario {
+        name: loaded.scenario.name.clone(),
+        words: format!("that of the scenario {}", loaded.scenario.name),
+        bearing: Box::new(loaded.scenario.bearing.clone()),
+    });
+    let request = Request {
+        rate: Some(rate_hz),
+        // A run states its own, of any of its channels.
+        unit: Some(unit.to_owned()).filter(|_| run.is_none()),
+        sensitivity: sensitivity.map(str::to_owned),
+        judged: true,
+        speed: speed_rpm.map(|rpm| GivenSpeed { rpm, is_bare: false }),
+        bearings: bearing.map(|name| Asked::Name(name.to_owned())).or(of_scenario).into_iter().collect(),
+        elements: Elements { count, pitch, diameter, contact_angle },
+        frequencies: orders_given.map(|order| order.map(|order| format!("{order}x"))),
+        tolerance: Some(tolerance),
+        band: band_hz.map(|(low, high)| Band::between(low, high)),
+        supply: supply_hz,
+        machine_class: machine_class.map(class).transpose()?,
+        simulated,
+        ..Request::new(Called::Keywords)
     };
-    let mut factor = 1.0;
-    let mut notes = vec![format!("{rate_hz} Hz and {}, as given", unit.name)];
-    let class = machine_class.map(class).transpose()?;
-    if let Some(text) = sensitivity {
-        let (of_sensor, of, words) = sensor(text, &unit)?;
-        factor = of_sensor;
-        notes.push(words);
-        x.iter_mut().for_each(|v| *v *= factor);
-        unit = of;
-    }
-    let seconds = x.len() as f64 / rate_hz;
-    let pulses = tacho.map(|(of, rate, a_turn)| by_pulses(&slice(&of), rate, a_turn, seconds)).transpose()?;
-    let (speed_rpm, rotation, source) = match (speed_rpm, pulses) {
-        (Some(rpm), None) => (rpm, None, "as given"),
-        (None, Some((rpm, rotation))) => (rpm, rotation, "from the pulses of tacho"),
-        _ => return Err(bad_value("speed_rpm: expected either it or tacho")),
-    };
-    if !(speed_rpm.is_finite() && speed_rpm != 0.0) {
-        return Err(failed(format!("speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min")));
-    }
-    let shaft = speed_rpm.abs() / 60.0;
-    let (orders, bearing) = orders(bearing, scenario, elements, orders_given)?;
-    let mut options = Options::new(shaft, orders);
-    options.supply = supply_hz.map(supply).transpose()?;
-    options.tolerance = tolerance;
-    options.exact = simulated;
-    options.measured_speed = source != "as given";
-    options.rotation = rotation;
-    if simulated {
-        let own = scenario.and_then(|s| s.loaded.scenario.sensor.noise_rms());
-        options.silent = unit.missing_noise(own);
-    }
-    options.band = band_hz.map(|(low, high)| Band::between(low, high));
-    let of = unit.clone();
-    let beside =
-        scenario.zip(run).map(|(s, (channel, from_s))| (s.loaded.scenario.clone(), channel.to_owned(), from_s));
-    let (analysis, bands) = unstoppable(py, move || {
-        let analysis = brinell::analysis::analyze(&x, rate_hz, &options).map(|mut analysis| {
-            if let Some((scenario, channel, from_s)) = &beside {
-                let stretch = Stretch { channel, from_s: *from_s, to_si: of.to_si };
-                beside_healthy(&mut analysis, scenario, stretch);
-            }
-            let levels = Levels::of(&[&x], &of, &analysis, class);
-            (analysis, levels)
-        });
-        let bands = (of.quantity == Quantity::Acceleration).then(|| velocity(&of.in_si(&x), rate_hz, shaft).ok());
-        (analysis, bands.flatten())
-    })?;
-    let (analysis, levels) = analysis.map_err(failed)?;
-    let mut json = to_json(&analysis, &unit, bands.as_ref(), None);
-    json["severity"] = levels.to_json(&unit);
-    let view = &analysis.view;
+    request.check().map_err(refused)?;
+    let pulses = tacho.map(|(of, rate, a_turn)| (slice(&of).into_owned(), rate, a_turn));
+    let of_run =
+        run.and_then(|(channel, from_s)| Some((Box::new(loaded.clone()?), [channel, unit].map(str::to_owned), from_s)));
+    let own = loaded.filter(|_| simulated).and_then(|loaded| loaded.scenario.sensor.noise_rms());
+    let (mut found, factor) = unstoppable(py, move || {
+        let (mut m, factor) = Measurement::of_samples(x, &request, of_run, pulses)?;
+        m.silent = if simulated { m.unit.value.missing_noise(own) } else { None };
+        Ok((examine(m, &request)?, factor))
+    })?
+    .map_err(refused)?;
+    found.measurement.x = Vec::new();
+    let (lead, unit) = (found.lead(), &found.measurement.unit.value);
+    let mut json = to_json(&lead.analysis, unit, found.velocity.as_ref(), None);
+    json["severity"] = lead.levels.to_json(unit);
+    let view = &lead.analysis.view;
     let envelope = spectrum_dict(py, view.spectrum.clone())?;
     envelope.set_item("mean", view.mean)?;
     envelope.set_item("band_hz", (view.band.low, view.band.high))?;
-    let findings = Findings {
-        x: array,
-        factor,
-        unit,
-        rate: rate_hz,
-        notes,
-        speed: format!("shaft speed {speed_rpm} r/min, {source}"),
-        bearing,
-        analysis,
-        levels,
-        velocity: bands,
-    };
-    Ok((json_to_python(py, &json)?, envelope, findings))
+    Ok((json_to_python(py, &json)?, envelope, Findings { x: array, factor, found }))
 }

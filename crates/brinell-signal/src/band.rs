@@ -2,6 +2,7 @@
 
 use super::error::{SignalError, require};
 use super::fft::round_off;
+use serde::Serialize;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -9,11 +10,13 @@ use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 /// A frequency band, Hz; bins on its edges belong to it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Band {
     /// Lower edge, Hz.
+    #[serde(rename = "low_hz")]
     pub low: f64,
     /// Upper edge, Hz; infinity for everything above `low`.
+    #[serde(rename = "high_hz")]
     pub high: f64,
 }
 

@@ -14,6 +14,7 @@
 //! highest band see their own mirror image: Gaussian noise then shows a kurtosis of 0.2 there, here below 0.01. Only
 //! outputs that see the signal under every tap are used, so there is no transient to leave out.
 
+use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 use realfft::num_complex::Complex;
@@ -47,9 +48,10 @@ pub struct Level {
 }
 
 /// A band of the map.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct KurtogramBand {
     /// Its edges, Hz.
+    #[serde(flatten)]
     pub band: Band,
     /// Its kurtosis.
     pub kurtosis: f64,

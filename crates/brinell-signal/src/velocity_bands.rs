@@ -15,17 +15,20 @@ use super::indicators::Indicator;
 use super::integrate::{Motion, fade, velocity};
 use super::lengths::fast_from;
 use super::spectrum::FEWEST_SAMPLES;
+use serde::Serialize;
 
 /// Low, medium and high band at 1800 r/min, Hz.
 pub const NOMINAL: [Band; 3] =
     [Band { low: 50.0, high: 300.0 }, Band { low: 300.0, high: 1800.0 }, Band { low: 1800.0, high: 10_000.0 }];
 
 /// RMS velocity in a band.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BandVelocity {
     /// The band, Hz.
+    #[serde(flatten)]
     pub band: Band,
     /// RMS velocity with its interval, in the acceleration's unit times s (m/s from m/s^2).
+    #[serde(rename = "rms_m_per_s")]
     pub rms: Estimate,
     /// Whether half the sampling rate cuts the band short: the value is then too small.
     pub cut_short: bool,

@@ -189,5 +189,5 @@ fn prop_a_column_of_times_is_no_signal() {
     assert_eq!(pairs["channels"][1]["samples"], 3);
     let bare = names("t,acc\n0.0,1\n0.1,2\n0.2,4\n");
     let why = bare["channels"][0]["rate_missing"].as_str().unwrap();
-    assert_eq!(why, "the file states no sample rate, and no unit for its times in `t`; give it in Hz");
+    assert_eq!(why, "the file states no sample rate, and no unit for its times in `t`; give the sample rate in Hz");
 }

@@ -1,10 +1,14 @@
 //! The options of `brinell analyze`.
 
-use super::measured::SignalArgs;
-use crate::args::{Elements, GivenSpeed, quantity, shaft_speed};
+use super::signal_args::SignalArgs;
+use crate::args::{Elements, quantity, shaft_speed};
+use crate::failure::Failure;
 use crate::figures::PlotFormat;
 use crate::figures::Print;
+use crate::look_up::scenario_meant;
 use brinell::analysis::MachineClass;
+use brinell::signal::Band;
+use brinell_measured::{Asked, Called, GivenSpeed, Request};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -145,14 +149,44 @@ fn machine_class() -> impl TypedValueParser<Value = MachineClass> {
 }
 
 impl AnalyzeArgs {
-    /// Whether anything says which bearing it is.
-    pub(super) fn names_a_bearing(&self) -> bool {
-        let frequencies = [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf];
-        let Elements { rollers, pitch, diameter, contact_angle } = self.elements;
-        let lengths = [pitch, diameter, contact_angle];
-        !self.bearing.is_empty()
-            || rollers.is_some()
-            || lengths.iter().any(Option::is_some)
-            || frequencies.iter().any(|f| f.is_some())
+    /// What is asked of each signal.
+    pub(super) fn request(&self) -> Result<Request, Failure> {
+        let bearing = |name: &String| {
+            Ok(match scenario_meant(name)? {
+                Some(scenario) => Asked::Scenario {
+                    name: name.clone(),
+                    words: format!("the scenario {name}"),
+                    bearing: Box::new(scenario.bearing),
+                },
+                None => Asked::Name(name.clone()),
+            })
+        };
+        let against = self.against.as_ref().map(|path| {
+            let request = Request {
+                channel: self.against_channel.clone(),
+                rate: self.against_rate,
+                unit: self.against_unit.clone(),
+                sensitivity: self.against_sensitivity.clone(),
+                full_scale: self.against_full_scale.clone(),
+                ..Request::new(Called::Options("against-"))
+            };
+            (path.clone(), Box::new(request))
+        });
+        Ok(Request {
+            judged: true,
+            speed: self.speed,
+            speed_channel: self.speed_channel.clone(),
+            tacho: self.tacho.clone().map(|name| (name, self.pulses)),
+            bearings: self.bearing.iter().map(bearing).collect::<Result<_, Failure>>()?,
+            elements: self.elements.numbers(),
+            frequencies: [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf].map(Clone::clone),
+            tolerance: Some(0.01 * self.tolerance),
+            band: self.band.as_ref().map(|b| Band::between(b[0], b[1])),
+            supply: self.supply,
+            machine_class: self.machine_class,
+            against,
+            healthy: self.healthy,
+            ..self.signal.request()
+        })
     }
 }

@@ -1,10 +1,10 @@
 //! Which files are meant: one, several, or those of a folder.
 
-use super::measured::{names_of_runs, run_in};
 use crate::failure::Failure;
 use crate::results::{Results, SPECTRA};
 use crate::say::one_line;
 use brinell_io::FileKind;
+use brinell_measured::{names_of_runs, run_in};
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 

@@ -1,19 +1,12 @@
 //! `brinell analyze`: a signal from a file to a verdict, in words, as JSON and as a page.
 
 mod args;
-mod bearing;
 mod columns;
-mod diagnosis;
-mod ends;
-mod examine;
 mod files;
-mod json;
-pub(crate) mod measured;
 mod page;
 mod records;
 mod several;
-mod short;
-mod together;
+pub(crate) mod signal_args;
 mod words;
 mod written;
 
@@ -21,8 +14,7 @@ pub(crate) use args::AnalyzeArgs;
 
 use crate::failure::Failure;
 use crate::say::complain;
-use brinell::analysis::SUPPLY_HZ;
-use examine::{results, turning};
+use brinell_measured::{Request, examine, is_too_short, of_file, together};
 use files::{Files, files};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -30,14 +22,8 @@ use std::process::ExitCode;
 use written::{earlier, put_json, put_pages};
 
 pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
-    if let Some(speed) = args.speed {
-        turning(speed.rpm, "--speed")?;
-    }
     if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
         return Err(Failure::Usage(format!("--tolerance {}: expected more than 0 to 10 per cent", args.tolerance)));
-    }
-    if let Some(hz) = args.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
-        return Err(Failure::Usage(format!("--supply {hz}: expected 1 to 1000 Hz")));
     }
     args.print.layout(&args.plots)?;
     if args.bearing.len() > 1 {
@@ -54,39 +40,32 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             "--together: {channels} channels, expected one: records are of one sensor"
         )));
     }
+    let request = args.request()?;
+    request.check()?;
     match files(&args.files)? {
-        Files::One(path) if channels < 2 => one(args, &[path]),
-        Files::Several(paths) if args.together => one(args, &paths),
-        Files::One(path) => several::analyze(args, &[path]),
-        Files::Several(paths) => several::analyze(args, &paths),
+        Files::One(path) if channels < 2 => one(args, &request, &[path]),
+        Files::Several(paths) if args.together => one(args, &request, &paths),
+        Files::One(path) => several::analyze(args, &request, &[path]),
+        Files::Several(paths) => several::analyze(args, &request, &paths),
     }
 }
 
 /// Of one file, or of several together, with all that is known of it.
-fn one(args: &AnalyzeArgs, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
-    let again = || together::load(args, paths);
-    let mut measured = again()?;
-    if paths.len() == 1 {
-        measured = match short::too_short(args, measured)? {
-            // Its levels, as a row.
-            Ok(_) => return several::analyze(args, paths),
-            Err(measured) => measured,
-        };
+fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let measurement = together(paths, request)?;
+    if is_too_short(&measurement, request)? {
+        // Its levels, as a row.
+        return several::analyze(args, request, paths);
     }
-    let file = json::of_file(&measured);
+    let file = of_file(&measurement);
     let alike = |previous: &Value| ["path", "records"].iter().all(|key| previous.get(key) == file.get(key));
     let same = |previous: &Value| previous.is_null() || alike(&previous["file"]);
-    let earlier = earlier(args, &[paths, &[measured.path.clone()]].concat(), same)?;
-    let results = results(args, measured, again)?;
-    let json = ends::whole(&results);
-    let lead = &results[ends::lead(&results).unwrap_or(0)];
+    let earlier = earlier(args, &[paths, std::slice::from_ref(&measurement.path)].concat(), same)?;
+    let found = examine(measurement, request)?;
+    let json = found.to_json(true);
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
-        let mut report = page::report(lead);
-        if results.len() > 1 {
-            report.verdict = format!("{}: {}", lead.name, report.verdict);
-            report.tables.insert(0, ends::table(&results));
-        }
+        let report = page::report(&found);
         written = put_pages(
             folder,
             &args.plots,
@@ -98,11 +77,11 @@ fn one(args: &AnalyzeArgs, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
     }
     put_json(args, &json, &mut written)?;
     if !args.quiet {
-        for warning in &lead.measured.warnings {
+        for warning in &found.warnings {
             complain!("warning: {warning}");
         }
         if args.json.as_deref() != Some(Path::new("-")) {
-            words::tell(&results, lead, &written);
+            words::tell(&found, &written);
         }
     }
     Ok(ExitCode::SUCCESS)

@@ -1,32 +1,30 @@
 //! The signals of one call: every channel that is named of every file, each with its options and a name.
 
-use super::args::AnalyzeArgs;
 use crate::say::one_line;
+use brinell_measured::Request;
 use std::path::{Path, PathBuf};
 
 /// One signal.
 pub(super) struct Record<'a> {
     pub(super) path: &'a Path,
-    /// The options with this channel alone.
-    pub(super) args: AnalyzeArgs,
+    /// What is asked of it: this channel alone.
+    pub(super) request: Request,
     /// The file's, and the channel's where several are named; of one file the channel's alone.
     pub(super) name: String,
 }
 
 /// In the order of files, and of channels in each.
-pub(super) fn records<'a>(args: &AnalyzeArgs, files: &'a [PathBuf]) -> Vec<Record<'a>> {
-    let channels = &args.signal.channel;
-    if channels.len() < 2 {
-        let of = |(path, name): (&'a PathBuf, String)| Record { path, args: args.clone(), name };
-        return files.iter().zip(names(files)).map(of).collect();
-    }
-    let of = |(path, name): (&'a PathBuf, String)| {
-        channels.iter().map(move |channel| {
-            let mut args = args.clone();
-            args.signal.channel = vec![channel.clone()];
-            let name = if files.len() == 1 { one_line(channel) } else { format!("{name}: {}", one_line(channel)) };
-            Record { path, args, name }
-        })
+pub(super) fn records<'a>(request: &Request, channels: &[String], files: &'a [PathBuf]) -> Vec<Record<'a>> {
+    let of = |(path, file): (&'a PathBuf, String)| {
+        if channels.len() < 2 {
+            return vec![Record { path, request: request.clone(), name: file }];
+        }
+        let one = |channel: &String| Record {
+            path,
+            request: Request { channel: Some(channel.clone()), ..request.clone() },
+            name: if files.len() == 1 { one_line(channel) } else { format!("{file}: {}", one_line(channel)) },
+        };
+        channels.iter().map(one).collect()
     };
     files.iter().zip(names(files)).flat_map(of).collect()
 }

@@ -2,18 +2,15 @@
 
 use super::args::AnalyzeArgs;
 use super::columns::{COLUMNS, in_columns};
-use super::diagnosis::Diagnosis;
-use super::ends;
-use super::examine::{load, results};
-use super::json::as_json;
+use super::page::called;
 use super::records::{Record, records};
-use super::short::{Short, too_short};
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::Failure;
 use crate::results::Earlier;
 use crate::say::{self, complain, one_line, say, short};
 use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
+use brinell_measured::{Diagnosis, Findings, Measurement, Request, Short, examine, is_too_short};
 use brinell_report::{
     Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, ZONES, scaled, study_html,
     study_pictures,
@@ -67,8 +64,8 @@ struct Found {
 /// Longest name that the terminal's table makes room for.
 const WIDEST: usize = 48;
 
-pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode, Failure> {
-    let records = records(args, files);
+pub(super) fn analyze(args: &AnalyzeArgs, request: &Request, files: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let records = records(request, &args.signal.channel, files);
     let paths: Vec<String> = records.iter().map(|record| record.path.display().to_string()).collect();
     let what = if args.signal.channel.len() < 2 { "file" } else { "signal" };
     let of_same = |previous: &Value| {
@@ -96,7 +93,7 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     }
     let mut rows: Vec<Row> = Vec::new();
     for record in records {
-        let found = one(&record).map_err(|error| {
+        let found = one(args, &record).map_err(|error| {
             let words = error.to_string().replace('\n', " ");
             // The row has its name.
             let named = format!("{}: ", record.path.display());
@@ -159,10 +156,11 @@ fn leading(args: &AnalyzeArgs, rows: &[Row]) -> Option<String> {
     })
 }
 
-fn one(Record { args, path, .. }: &Record) -> Result<Found, Failure> {
-    let found = match too_short(args, load(args, path)?)? {
-        Ok(short) => Found::of_short(short),
-        Err(measured) => Found::of(&results(args, measured, || load(args, path))?),
+fn one(args: &AnalyzeArgs, Record { request, path, .. }: &Record) -> Result<Found, Failure> {
+    let measurement = Measurement::open(path, request)?;
+    let found = match is_too_short(&measurement, request)? {
+        true => Found::of_short(Short::of(measurement, request)?),
+        false => Found::of(&examine(measurement, request)?),
     };
     if !args.quiet {
         found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));
@@ -173,13 +171,13 @@ fn one(Record { args, path, .. }: &Record) -> Result<Found, Failure> {
 impl Found {
     fn of_short(short: Short) -> Self {
         Found {
-            seconds: short.seconds,
+            seconds: short.measurement.seconds(),
             json: short.to_json(),
             verdict: "too short".into(),
             too_short: true,
             sentences: vec![short.why],
             lead: None,
-            unit: short.measured.unit,
+            unit: short.measurement.unit.value,
             rms: short.rms,
             peak: Some(Estimate { value: short.peak, interval: None }),
             kurtosis: short.kurtosis,
@@ -193,15 +191,14 @@ impl Found {
             noise: 0.0,
             other: None,
             rms_over_other: None,
-            warnings: short.measured.warnings,
+            warnings: short.warnings,
         }
     }
 
     /// Levels are those of the bearing that leads: its band is the one shown.
-    fn of(results: &[Diagnosis]) -> Self {
-        let lead = ends::lead(results);
-        let result = &results[lead.unwrap_or(0)];
-        let (m, a) = (&result.measured, &result.analysis);
+    fn of(found: &Findings) -> Self {
+        let (results, lead, result) = (&found.bearings[..], found.leads(), found.lead());
+        let a = &result.analysis;
         let prefix = |r: &Diagnosis| match results.len() {
             1 => String::new(),
             _ => format!("{} ", r.name),
@@ -209,19 +206,11 @@ impl Found {
         let verdicts = results.iter().enumerate().map(|(k, r)| {
             let calls = r.analysis.causes().next().is_some();
             let doubt = if calls && lead != Some(k) { "?" } else { "" };
-            format!("{}{}{doubt}", prefix(r), r.called())
+            format!("{}{}{doubt}", prefix(r), called(r))
         });
         let scores = results.iter().flat_map(|r| {
             let families = r.analysis.families.iter();
             families.map(move |f| (format!("{}{}", prefix(r), f.name), f.score))
-        });
-        let json = ends::to_json(results, |result| {
-            let mut json = as_json(result);
-            if let Some(all) = json.as_object_mut() {
-                // It is above all records.
-                all.remove("brinell");
-            }
-            json
         });
         Found {
             seconds: a.duration(),
@@ -231,8 +220,8 @@ impl Found {
                 [only] => vec![only.verdict_text()],
                 _ => results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text())).collect(),
             },
-            lead: lead.and_then(|k| ends::score(&results[k])),
-            unit: m.unit.clone(),
+            lead: lead.and(result.call()).map(|family| family.score),
+            unit: found.measurement.unit.value.clone(),
             rms: a.indicator(Indicator::Rms),
             // The record's own, which has no interval.
             peak: Some(Estimate { value: a.record_peak, interval: None }),
@@ -240,7 +229,7 @@ impl Found {
             velocity: result.levels.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
             zone: result.levels.letter(),
             speed_used: a.speed_used(),
-            said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
+            said: format!("{}; bearing: {}", found.speed, said_of_bearings(results)),
             class: result.levels.class,
             high: a.families.iter().map(|f| f.limit).fold(0.0, f64::max),
             noise: a.families.iter().map(|f| f.noise).fold(0.0, f64::max),
@@ -248,15 +237,16 @@ impl Found {
                 // Of two sample rates levels are not of one range: none is drawn over the other's.
                 let whole = other.comparison.range.is_none();
                 let value = |i| other.analysis.indicator(i).filter(|_| whole).map_or(f64::NAN, |e| e.value);
-                (other.measured.path.display().to_string(), value(Indicator::Rms), value(Indicator::Kurtosis))
+                (other.measurement.path.display().to_string(), value(Indicator::Rms), value(Indicator::Kurtosis))
             }),
             rms_over_other: result.against.as_ref().and_then(|other| {
                 let rms = other.comparison.indicators.iter().find(|d| d.indicator == Indicator::Rms)?;
                 Some(rms.first / rms.second)
             }),
             scores: scores.collect(),
-            warnings: m.warnings.clone(),
-            json,
+            warnings: found.warnings.clone(),
+            // The version is above all records.
+            json: found.to_json(false),
         }
     }
 
@@ -290,7 +280,7 @@ impl Found {
 
 /// Where each bearing's frequencies come from.
 fn said_of_bearings(results: &[Diagnosis]) -> String {
-    let all: Vec<&str> = results.iter().map(|r| r.bearing.as_str()).collect();
+    let all: Vec<String> = results.iter().map(Diagnosis::said_of_bearing).collect();
     all.join("; ")
 }
 

@@ -1,9 +1,8 @@
 //! What is printed of an analysis.
 
-use super::diagnosis::{Against, Diagnosis};
-use super::json::whole_indicators;
 use crate::say::{self, say, short};
 use brinell::analysis::{Analysis, COLUMNS, indicator_words, level_words};
+use brinell_measured::{Against, Findings, whole_indicators};
 use brinell_report::{level_lines, orders_in_hz, ratio};
 use std::path::PathBuf;
 
@@ -23,20 +22,21 @@ fn families(a: &Analysis) {
     say!("");
 }
 
-/// Of each bearing the verdict, of the signal the rest: `result` is one of them.
-pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf]) {
-    let (m, a) = (&result.measured, &result.analysis);
+/// Of each bearing the verdict, of the signal the rest.
+pub(super) fn tell(found: &Findings, written: &[PathBuf]) {
+    let (results, result, m) = (&found.bearings, found.lead(), &found.measurement);
+    let (a, unit) = (&result.analysis, &m.unit.value.name);
     let others = if a.records > 1 { format!(" and {} more", a.records - 1) } else { String::new() };
-    say!("{}{others}, channel {}: {:.3} s, {} samples", m.path.display(), m.channel, a.duration(), a.samples);
-    for note in &m.notes {
+    say!("{}{others}, channel {}: {:.3} s, {} samples", m.path.display(), m.channel.value, a.duration(), a.samples);
+    for note in &found.notes {
         say!("  {note}");
     }
-    say!("  {}; {}", result.speed, a.shaft_words());
+    say!("  {}; {}", found.speed, a.shaft_words());
     if let Some(orders) = orders_in_hz(a) {
         say!("  {orders}");
     }
     for one in results {
-        say!("  bearing: {}", one.bearing);
+        say!("  bearing: {}", one.said_of_bearing());
     }
     for (k, one) in results.iter().enumerate() {
         let of = match results.len() {
@@ -45,22 +45,21 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
         };
         say!("\n{of}{}\n", one.verdict_text());
         families(&one.analysis);
-        if let (Some(rest), Some(last)) = (&one.rest, &one.last) {
+        if let (Some(rest), Some(last)) = (&found.rest, &one.last) {
             say!("\nThe last {} samples, from {:.1} s on: {}", last.samples, rest.last_start, last.verdict());
         }
     }
-    say!("  {}", a.headlines(&m.unit.name).join(", "));
-    for line in level_lines(&result.levels, &m.unit.name) {
+    say!("  {}", a.headlines(unit).join(", "));
+    for line in level_lines(&result.levels, unit) {
         say!("  {line}");
     }
-    if let Some(rest) = &result.rest {
-        let whole: Vec<String> = whole_indicators(rest)
-            .map(|(i, name, v)| level_words(&name.replace('_', " "), i, v, &m.unit.name))
-            .collect();
+    if let Some(rest) = &found.rest {
+        let whole: Vec<String> =
+            whole_indicators(rest).map(|(i, name, v)| level_words(&name.replace('_', " "), i, v, unit)).collect();
         say!("  of all {} samples: {}", rest.samples, whole.join(", "));
     }
     if let Some(other) = &result.against {
-        against(other, &m.unit.name);
+        against(other, unit);
     }
     say::wrote(written);
 }
@@ -69,11 +68,11 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
 fn against(other: &Against, unit: &str) {
     say!(
         "  against {}, channel {}: {}",
-        other.measured.path.display(),
-        other.measured.channel,
+        other.measurement.path.display(),
+        other.measurement.channel.value,
         other.analysis.verdict()
     );
-    for note in &other.measured.notes {
+    for note in other.measurement.notes() {
         say!("    {note}");
     }
     let (mean, rms) = other.comparison.level_db;

@@ -1,6 +1,6 @@
 //! The command line of `brinell calibrate`.
 
-use crate::analyze::measured::SignalArgs;
+use crate::analyze::signal_args::SignalArgs;
 use crate::args::jobs;
 use clap::Args;
 use std::num::NonZeroUsize;

@@ -1,11 +1,12 @@
 //! The measured signal of the command line.
 
 use super::CalibrateArgs;
-use crate::analyze::measured::{SignalArgs, Wanted, load};
+use crate::analyze::signal_args::SignalArgs;
 use crate::failure::Failure;
 use crate::files::Source;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
+use brinell_measured::Measurement;
 use brinell_study::calibrate::{CalibrateError, Key, Measured, Pattern};
 
 /// Standard uncertainty of the model's levels where none is given, per cent.
@@ -28,9 +29,9 @@ pub(super) fn pattern(
     if args.signal.channel.len() > 1 {
         return Err(Failure::Usage("--channel: expected one channel to fit to, and there are several".into()));
     }
-    let signal = load(file, &Wanted::of(&args.signal))?;
+    let signal = Measurement::open(file, &args.signal.request())?;
     let name = signal.path.display();
-    let measured = Measured { x: &signal.x, rate: signal.rate, unit: &signal.unit };
+    let measured = Measured { x: &signal.x, rate: signal.rate.value, unit: &signal.unit.value };
     let own = source.load(&[], true)?.scenario;
     let (axis, percent) = (args.axis.as_deref(), args.model_uncertainty.unwrap_or(MODEL_UNCERTAINTY));
     let pattern = Pattern::new(&measured, (&own, keys), (scenario, simulation), axis, percent);
@@ -40,7 +41,7 @@ pub(super) fn pattern(
             CalibrateError::Axis(_) => format!("--{error}"),
             CalibrateError::Speed => format!("--measured: {error}; give --set operation.speed_rpm=RPM"),
             CalibrateError::NoAcceleration(_) => {
-                format!("{name}: `{}` {error}: give --unit m/s^2 or --unit g", signal.channel)
+                format!("{name}: `{}` {error}: give --unit m/s^2 or --unit g", signal.channel.value)
             }
             CalibrateError::Rate { measured, .. } => {
                 format!("{name} {error}: give --set simulation.sample_rate_hz={measured:?}")
@@ -50,11 +51,11 @@ pub(super) fn pattern(
     })?;
     pattern.notes.push(format!(
         "{name}, channel {}: {} samples from {:.4} s on, against {}",
-        signal.channel,
+        signal.channel.value,
         signal.x.len(),
         signal.start,
         pattern.channel
     ));
-    pattern.notes.extend(signal.notes);
-    Ok(Some((pattern, signal.warnings)))
+    pattern.notes.extend(signal.notes());
+    Ok(Some((pattern, signal.warnings())))
 }

@@ -5,6 +5,7 @@ use super::together::HARMONICS;
 use super::{Analysis, AnalysisError};
 use crate::integrate::{band_pass, fade};
 use crate::{Band, Estimate, Indicator, Segments, Spectrum, envelope, harmonics, psd};
+use serde::Serialize;
 
 /// Half sample rates that differ by less, relative, hold one range.
 const ONE_RATE: f64 = 0.01;
@@ -23,13 +24,14 @@ pub struct Difference {
 }
 
 /// One harmonic of a defect frequency in both envelope spectra.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LineDifference {
     /// Name of the frequency: `BPFO`.
     pub name: &'static str,
     /// Order of the harmonic.
     pub order: i32,
     /// Frequency in the first and in the second, Hz.
+    #[serde(rename = "frequency_hz")]
     pub frequency: [f64; 2],
     /// Amplitude over the envelope's mean.
     pub modulation: [f64; 2],

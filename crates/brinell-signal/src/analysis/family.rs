@@ -17,6 +17,7 @@ mod replay;
 use super::Options;
 use super::frequencies::Component;
 use super::together::{HARMONICS, Highest, Place, Together};
+use serde::Serialize;
 
 /// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than
 /// [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines are less high over the noise, and chance lines hardly
@@ -50,11 +51,12 @@ const SLIP: f64 = 0.05;
 const USUAL_FTF: f64 = 0.4;
 
 /// One harmonic of a family.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Harmonic {
     /// 1 is the fundamental.
     pub order: usize,
     /// Where it is, Hz.
+    #[serde(rename = "frequency_hz")]
     pub frequency: f64,
     /// Power over the noise floor about it, averaged over the bands, dB; `None` where a line of shaft or mains hides
     /// it.

@@ -67,13 +67,11 @@ pub fn to_json(
             "frequency_step_hz": view.spectrum.frequency_step,
             "averages": view.spectrum.segments,
         },
-        "kurtogram": analysis.kurtogram.map(|k| json!({
-            "low_hz": k.band.low, "high_hz": k.band.high, "kurtosis": k.kurtosis, "noise_scatter": k.noise_scatter,
-        })),
+        "kurtogram": analysis.kurtogram,
         "indicators": indicators(analysis, unit),
     });
     if let Some(bands) = velocity {
-        object["velocity_bands"] = velocity_json(bands).into();
+        object["velocity_bands"] = json!(bands.iter().flatten().collect::<Vec<_>>());
     }
     if let Some(c) = comparison {
         object["comparison"] = comparison_json(c);
@@ -92,16 +90,6 @@ fn indicators(analysis: &Analysis, unit: &Unit) -> Map<String, Value> {
         all.insert(RECORD_CREST_FACTOR.into(), one(Written::new(crest, None), ""));
     }
     all
-}
-
-fn velocity_json(bands: &VelocityBands) -> Vec<Value> {
-    (bands.iter().flatten())
-        .map(|b| {
-            json!({
-                "low_hz": b.band.low, "high_hz": b.band.high, "rms_m_per_s": b.rms, "cut_short": b.cut_short,
-            })
-        })
-        .collect()
 }
 
 fn family(analysis: &Analysis, f: &Family) -> Value {
@@ -123,9 +111,7 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "noise": f.noise,
         "modulation": f.modulation,
         "over_healthy": f.growth,
-        "harmonics": f.harmonics.iter().map(|h| json!({
-            "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "detected": h.detected,
-        })).collect::<Vec<_>>(),
+        "harmonics": f.harmonics,
         "sidebands": f.sidebands.as_ref().map(|s| json!({
             "spacing_hz": s.spacing, "detected": s.detected.len(), "of": s.of,
         })),
@@ -140,8 +126,6 @@ fn comparison_json(c: &Comparison) -> Value {
         "indicators": c.indicators.iter().map(|d| (d.indicator.name().to_owned(), json!({
             "measured": d.first, "other": d.second, "ratio": d.first / d.second, "intervals_apart": d.apart,
         }))).collect::<Map<_, _>>(),
-        "lines": c.lines.iter().map(|l| json!({
-            "name": l.name, "order": l.order, "frequency_hz": l.frequency, "modulation": l.modulation, "snr_db": l.snr_db,
-        })).collect::<Vec<_>>(),
+        "lines": c.lines,
     })
 }

@@ -24,7 +24,6 @@ mod json;
 mod known_lines;
 mod levels;
 mod options;
-mod recorded;
 mod result;
 mod running_median;
 mod sensitivity;
@@ -48,9 +47,6 @@ pub use frequencies::{Component, DefectOrders, Measures, NAMED, NamedBearing, Wo
 pub use json::to_json;
 pub use levels::Levels;
 pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
-pub use recorded::{
-    Called, Given, NoUnit, Numbers, Scaled, beyond_full_scale, once, other_bearing, other_speed, unit_of,
-};
 pub use result::{Analysis, Unexplained, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};

@@ -1,57 +1,53 @@
 //! Samples out of a file: a stretch, or all of a long signal in bounded memory.
 
-use crate::failure::Failure;
+use crate::called::Called;
+use crate::problem::Problem;
+use crate::request::MOST;
 use brinell::signal::Moments;
 use brinell_io::{IoError, SignalFile};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::thread::JoinHandle;
 
-/// Most samples analysed by default: 82 s at 51.2 kHz. Bounds memory, whatever the file.
-pub(crate) const MOST: usize = 1 << 22;
-
-/// Whatever is wrong with a file that is read is bad input.
-pub(super) fn bad(error: IoError) -> Failure {
-    Failure::Usage(error.to_string())
-}
-
 /// What follows so many samples of a channel, and how many at most.
 #[derive(Clone, Copy)]
-pub(super) struct Part {
-    pub(super) skip: usize,
-    pub(super) most: usize,
+pub(crate) struct Part {
+    pub(crate) skip: usize,
+    pub(crate) most: usize,
     /// Hz.
-    pub(super) rate: f64,
+    pub(crate) rate: f64,
+    pub(crate) called: Called,
 }
 
 impl Part {
-    /// Options that choose a stretch without the sample `at` after the part's first, in words.
-    pub(super) fn without(self, at: usize) -> String {
+    /// What chooses a stretch without the sample `at` after the part's first, in words.
+    pub(crate) fn without(self, at: usize) -> String {
         let from = (self.skip + at + 1) as f64 / self.rate;
-        format!("{}, --start {from} what follows", self.before(at))
+        format!("{}, {} what follows", self.before(at), self.called.number("start", from))
     }
 
-    /// Those that choose what is before it.
+    /// What chooses that before it.
     fn before(self, at: usize) -> String {
         let start = self.skip as f64 / self.rate;
-        let start = if start > 0.0 { format!("--start {start} ") } else { String::new() };
-        format!("{start}--duration {} takes what is before it", at as f64 / self.rate)
+        let start = if start > 0.0 { format!("{} ", self.called.number("start", start)) } else { String::new() };
+        let duration = self.called.number("duration", at as f64 / self.rate);
+        format!("{start}{duration} takes what is before it")
     }
 }
 
 /// The part's samples, and whether there are more. Lines of a text file that hold no number may lie about it, with a
 /// warning.
-pub(super) fn stretch(
+pub(crate) fn stretch(
     file: &mut SignalFile,
     name: &str,
     part: Part,
     warnings: &mut Vec<String>,
-) -> Result<(Vec<f64>, bool), Failure> {
+) -> Result<(Vec<f64>, bool), Problem> {
     let error = match samples(part, |sink| file.read_pieces(name, sink)) {
         Err(error) if error.is_of_a_line() => error,
-        read => return read.map_err(bad),
+        read => return read.map_err(Problem::from),
     };
-    let read = samples(part, |sink| file.read_around(name, sink)).map_err(bad)?;
+    let read = samples(part, |sink| file.read_around(name, sink))?;
     match read.0.iter().position(|v| !v.is_finite()) {
         None => {
             warnings.push(format!("{error}; that lies beyond the stretch which is analysed"));
@@ -60,7 +56,7 @@ pub(super) fn stretch(
         Some(at) => {
             let nothing_follows = matches!(error, IoError::Segment { .. });
             let options = if nothing_follows { part.before(at) } else { part.without(at) };
-            Err(Failure::Usage(format!("{error}; {options}")))
+            Err(Problem::Signal(format!("{error}; {options}")))
         }
     }
 }
@@ -82,35 +78,35 @@ fn samples(part: Part, read: impl FnOnce(Sink<'_>) -> Result<(), IoError>) -> Re
 }
 
 /// From a file's numbers to the signal's unit.
-pub(super) fn scale(values: &mut [f64], factor: f64) {
+pub(crate) fn scale(values: &mut [f64], factor: f64) {
     if factor != 1.0 {
         values.iter_mut().for_each(|v| *v *= factor);
     }
 }
 
 /// The whole of a signal longer than [`MOST`] samples.
-pub(crate) struct Rest {
+pub struct Rest {
     /// Samples of the whole, from the first one analysed on.
-    pub(crate) samples: u64,
+    pub samples: u64,
     /// Their moments, less the mean of the first of them.
-    pub(crate) moments: Moments,
+    pub moments: Moments,
     /// Those that are not finite numbers.
-    pub(crate) missing: u64,
+    pub missing: u64,
     /// The last [`MOST`] samples: of less than twice as many, some belong to the first as well.
-    pub(crate) last: Vec<f64>,
+    pub last: Vec<f64>,
     /// Where those begin, s.
-    pub(crate) last_start: f64,
+    pub last_start: f64,
 }
 
 /// A long signal beyond its first [`MOST`] samples, not read yet.
 pub(crate) struct Beyond {
-    pub(super) file: SignalFile,
-    pub(super) name: String,
+    pub(crate) file: SignalFile,
+    pub(crate) name: String,
     /// Samples before the first one analysed.
-    pub(super) skip: usize,
-    pub(super) rate: f64,
+    pub(crate) skip: usize,
+    pub(crate) rate: f64,
     /// The signal's unit over the file's numbers.
-    pub(super) factor: f64,
+    pub(crate) factor: f64,
 }
 
 /// The same while a thread reads it.
@@ -125,9 +121,9 @@ impl Beyond {
 
 impl Reading {
     /// Waits for the end of the file.
-    pub(crate) fn finish(self) -> Result<Rest, Failure> {
+    pub(crate) fn finish(self) -> Result<Rest, Problem> {
         let read = self.0.join();
-        read.unwrap_or_else(|panic| std::panic::resume_unwind(panic)).map_err(bad)
+        read.unwrap_or_else(|panic| std::panic::resume_unwind(panic)).map_err(Problem::from)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which signal of a file is meant, and what the file does not say of it.
 
 use crate::args::quantity;
+use brinell_measured::{Called, Request};
 use clap::Args;
 
 /// The options about the signal in a file.
@@ -39,4 +40,23 @@ pub(crate) struct SignalArgs {
     /// Length in s from the start time [default: to the end; of a long signal the first and the last 4194304 samples]
     #[arg(long, value_parser = quantity("s", "more than 0 s, as 2 or 500ms"), value_name = "S")]
     pub(crate) duration: Option<f64>,
+}
+
+impl SignalArgs {
+    /// What these options say, and nothing else.
+    pub(crate) fn request(&self) -> Request {
+        let given = self.clone();
+        Request {
+            channel: given.channel.into_iter().next(),
+            rate: given.rate,
+            time_channel: given.time_channel,
+            time_unit: given.time_unit,
+            unit: given.unit,
+            sensitivity: given.sensitivity,
+            full_scale: given.full_scale,
+            start: given.start,
+            duration: given.duration,
+            ..Request::new(Called::Options(""))
+        }
+    }
 }

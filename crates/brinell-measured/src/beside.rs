@@ -3,25 +3,17 @@
 //! Each bearing is judged by itself. A sensor hears all of them, so where two are called damaged the lines of one may
 //! be sidebands or harmonics of the other's; the higher score leads.
 
-use super::diagnosis::Diagnosis;
-use super::json::{as_json, of_file};
+use crate::diagnosis::Diagnosis;
 use brinell::analysis::Family;
-use brinell_report::Table;
-use serde_json::{Value, json};
 
 /// Its highest-scoring damage.
 fn call(result: &Diagnosis) -> Option<&Family> {
-    (result.analysis.causes()).max_by(|a, b| a.score.total_cmp(&b.score))
-}
-
-/// Its score.
-pub(super) fn score(result: &Diagnosis) -> Option<f64> {
-    call(result).map(|family| family.score)
+    result.call()
 }
 
 /// The bearing whose damage scores highest, by index; the first of equals.
-pub(super) fn lead(results: &[Diagnosis]) -> Option<usize> {
-    let score = |k: usize| score(&results[k]);
+pub(crate) fn lead(results: &[Diagnosis]) -> Option<usize> {
+    let score = |k: usize| call(&results[k]).map(|family| family.score);
     let mut best: Option<(usize, f64)> = None;
     for k in 0..results.len() {
         if let Some(score) = score(k)
@@ -34,7 +26,7 @@ pub(super) fn lead(results: &[Diagnosis]) -> Option<usize> {
 }
 
 /// What is to be said of each beside its verdict, in view of the others.
-pub(super) fn set_beside(results: &mut [Diagnosis]) {
+pub(crate) fn set(results: &mut [Diagnosis]) {
     let lead = lead(results);
     let all = 0..results.len();
     let said: Vec<_> = all.map(|k| (beside(results, k, lead), lines_of(results, k, lead))).collect();
@@ -96,54 +88,4 @@ fn beside(results: &[Diagnosis], k: usize, lead: Option<usize>) -> Option<String
         });
     }
     (!parts.is_empty()).then(|| parts.join(" "))
-}
-
-/// One bearing's JSON as it is; of several, each under `bearings`.
-pub(super) fn to_json(results: &[Diagnosis], of: impl Fn(&Diagnosis) -> Value) -> Value {
-    if let [only] = results {
-        return of(only);
-    }
-    let lead = lead(results);
-    let one = |result: &Diagnosis| {
-        let mut one = of(result);
-        one["bearing"] = result.name.clone().into();
-        one["beside"] = result.beside.clone().into();
-        one
-    };
-    let bearings: Vec<Value> = results.iter().map(one).collect();
-    // That of the bearing that leads, or of the first; its text speaks of all.
-    let mut verdict = bearings[lead.unwrap_or(0)]["verdict"].clone();
-    let texts = results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text()));
-    verdict["text"] = texts.collect::<Vec<_>>().join("\n").into();
-    json!({
-        "brinell": brinell::VERSION,
-        "file": results.first().map(|r| of_file(&r.measured)),
-        "verdict": verdict,
-        "leads": lead.map(|k| results[k].name.clone()),
-        "bearings": bearings,
-    })
-}
-
-/// The JSON of everything.
-pub(super) fn whole(results: &[Diagnosis]) -> Value {
-    to_json(results, as_json)
-}
-
-/// The bearings on the page.
-pub(super) fn table(results: &[Diagnosis]) -> Table {
-    let row = |result: &Diagnosis| {
-        let call = call(result);
-        let found = call.map(|f| {
-            let hz = f.frequency;
-            [format!("{} at {hz:.2} Hz", f.name), format!("{:.1}", f.score)]
-        });
-        let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
-        vec![result.name.clone(), result.called(), frequency, score, result.verdict_text()]
-    };
-    Table::new(
-        "Bearings",
-        ["Bearing", "Damage", "Frequency", "#Score", "Verdict"],
-        results.iter().map(row),
-        "Each bearing is judged by itself, and one sensor records all. The pictures are of the one that leads, or of the first.",
-    )
 }

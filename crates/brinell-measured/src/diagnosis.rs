@@ -1,0 +1,115 @@
+//! What is found in a signal, and its verdict in words.
+
+use crate::known::Known;
+use crate::measurement::Measurement;
+use crate::stretch::Rest;
+use brinell::analysis::{Analysis, Comparison, Component, DefectOrders, Family, Levels};
+use brinell::document::Loaded;
+use brinell::scenario::Surface;
+use brinell::signal::VelocityBands;
+
+/// Everything that is found in a measured signal.
+pub struct Findings {
+    /// The signal; its warnings are [those of all](Findings::warnings).
+    pub measurement: Measurement,
+    /// The shaft's speed and where it comes from, in words.
+    pub speed: String,
+    /// What lies beyond the stretch, where the signal is longer than one analysis takes.
+    pub rest: Option<Rest>,
+    /// Bands of ISO 15242, where the signal is one acceleration.
+    pub velocity: Option<VelocityBands>,
+    /// Of each bearing that was asked about, or of one: at least one.
+    pub bearings: Vec<Diagnosis>,
+    /// Where channel, rate and unit come from, and what else is said.
+    pub notes: Vec<String>,
+    /// What deserves attention, each once.
+    pub warnings: Vec<String>,
+}
+
+/// What is found at the frequencies of one bearing.
+pub struct Diagnosis {
+    /// The bearing's name, where one was given.
+    pub name: String,
+    /// Its orders.
+    pub bearing: Known<DefectOrders>,
+    /// Families, indicators and the verdict.
+    pub analysis: Analysis,
+    /// Levels of the signal.
+    pub levels: Levels,
+    /// What is to be said in view of the machine's other bearings.
+    pub beside: Option<String>,
+    /// The other bearing whose lines these are, where they are no frequency of this one.
+    pub lines_of: Option<String>,
+    /// That damage is called which the run that made the signal had not.
+    pub(crate) wrong: Option<String>,
+    /// The end of a long signal.
+    pub last: Option<Analysis>,
+    /// What it is compared with.
+    pub against: Option<Against>,
+}
+
+/// What the signal is laid over, in the signal's unit.
+pub struct Against {
+    /// The other signal.
+    pub measurement: Measurement,
+    /// What is found in it.
+    pub analysis: Analysis,
+    /// The one beside the other.
+    pub comparison: Comparison,
+}
+
+impl Diagnosis {
+    pub(crate) fn new(name: &str, bearing: Known<DefectOrders>, analysis: Analysis, levels: Levels) -> Self {
+        Self {
+            name: name.to_owned(),
+            bearing,
+            analysis,
+            levels,
+            beside: None,
+            lines_of: None,
+            wrong: None,
+            last: None,
+            against: None,
+        }
+    }
+
+    /// Where the defect frequencies come from.
+    pub fn said_of_bearing(&self) -> String {
+        self.bearing.notes.join("; ")
+    }
+
+    /// Its highest-scoring damage.
+    pub fn call(&self) -> Option<&Family> {
+        self.analysis.causes().max_by(|a, b| a.score.total_cmp(&b.score))
+    }
+
+    /// The verdict, and what is to be said beside it.
+    pub fn verdict_text(&self) -> String {
+        let mut said = vec![self.analysis.verdict()];
+        // What answers the question comes first.
+        let at = if self.lines_of.is_some() { 0 } else { 1 };
+        said.splice(at..at, self.beside.clone());
+        said.extend(self.wrong.clone());
+        said.join(" ")
+    }
+
+    /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of
+    /// it.
+    pub(crate) fn contradicted(analysis: &Analysis, run: &Loaded) -> Option<String> {
+        let is_damaged = |component: Component| {
+            let on = |surface: Surface| match component {
+                Component::OuterRace => surface == Surface::OuterRaceway,
+                Component::InnerRace => surface == Surface::InnerRaceway,
+                Component::Element => matches!(surface, Surface::Roller(_)),
+                Component::Cage => false,
+            };
+            run.scenario.defects.iter().any(|d| on(d.on))
+        };
+        let mut wrong: Vec<&str> =
+            (analysis.causes()).filter(|f| !is_damaged(f.component)).map(|f| f.component.words()).collect();
+        wrong.dedup();
+        (!wrong.is_empty()).then(|| {
+            format!("Wrong: in the run that made the signal nothing was damaged on the {}.", wrong.join(" and the "))
+        })
+    }
+}
