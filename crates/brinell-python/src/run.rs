@@ -271,7 +271,7 @@ impl Run {
     /// What `report.html` holds; a run without the damage is drawn behind.
     #[pyo3(signature = (healthy=None))]
     fn to_html(&self, py: Python<'_>, healthy: Option<&Self>) -> String {
-        self.with_parts(py, healthy, |parts| html(&Report::of_run(parts)))
+        self.with_parts(py, healthy, |parts| html(&Report::of_run(parts).into()))
     }
 
     /// What `summary.json` holds under `spread`: the assumed values at both ends of their plausible ranges, `jobs` runs at a time.

@@ -12,7 +12,7 @@ use brinell::bearing::{KnownBearing, orders_of};
 use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::tacho::{course, speed_by_pulses};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Rotation, Segments, Spectrum, VelocityBands, Window};
-use brinell_report::{AnalysisReport, Analyzed, analysis_html};
+use brinell_report::{AnalysisReport, Analyzed, html};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -283,7 +283,7 @@ impl Findings {
         let (verdict, warnings) = (self.analysis.verdict(), self.analysis.flaws.iter());
         let warnings: Vec<String> = warnings.map(|(_, flaw)| flaw.to_string()).collect();
         Ok(py.detach(|| {
-            analysis_html(&AnalysisReport::of_findings(&brinell_report::Findings {
+            let report = AnalysisReport::of_findings(&brinell_report::Findings {
                 signal: Analyzed { name: title, x: &x, rate: self.rate, analysis: &self.analysis },
                 unit: &self.unit,
                 verdict: &verdict,
@@ -294,7 +294,8 @@ impl Findings {
                 levels: &self.levels,
                 velocity: self.velocity.as_ref(),
                 against: None,
-            }))
+            });
+            html(&report.into())
         }))
     }
 }

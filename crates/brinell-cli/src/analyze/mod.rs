@@ -87,12 +87,13 @@ fn one(args: &AnalyzeArgs, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
             report.verdict = format!("{}: {}", lead.name, report.verdict);
             report.tables.insert(0, ends::table(&results));
         }
+        let page = report.into();
         written = put_pages(
             folder,
             &args.plots,
             &json,
-            &brinell_report::analysis_html(&report),
-            &brinell_report::analysis_pictures(&report, args.print.layout(&args.plots)?),
+            &brinell_report::html(&page),
+            &brinell_report::pictures(&page, args.print.layout(&args.plots)?),
             &earlier,
         )?;
     }

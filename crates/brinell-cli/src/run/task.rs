@@ -18,7 +18,7 @@ use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary;
 use brinell_damage::Photo;
 use brinell_io::{Format, atomic_prepare, run_table};
-use brinell_report::Report;
+use brinell_report::{Page, Report};
 use brinell_study::campaign::Spread;
 use brinell_study::runner::{Make, Recorder, forecast};
 use std::path::{Path, PathBuf};
@@ -170,13 +170,13 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
     Ok(Done { printed, end: outcome.end, interrupted, summary })
 }
 
-fn report(parts: &Parts, photos: &[Option<Photo>], spread: Option<&Spread>) -> Report {
+fn report(parts: &Parts, photos: &[Option<Photo>], spread: Option<&Spread>) -> Page {
     let mut report = Report::of_run(parts);
     report.spread = spread.map(|spread| spread.levels.clone());
     for (view, photo) in report.damage.iter_mut().zip(photos) {
         view.photo = photo.clone();
     }
-    report
+    report.into()
 }
 
 /// Begins the files of signals.

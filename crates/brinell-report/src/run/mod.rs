@@ -5,6 +5,7 @@ mod healthy;
 mod lead;
 mod motion;
 mod orders;
+mod page;
 mod sensor;
 mod signals;
 mod tables;
