@@ -4,14 +4,14 @@ use crate::figures::cell;
 use crate::reproduction::Reproduction;
 use crate::variants::PRINTED_FILM;
 use crate::{RMS, Variant, Verdict};
-use brinell_report::StudyPiece;
+use brinell_report::Piece;
 use brinell_report::short;
 
 /// Pure rolling of the NN3007 at 1800 r/min, Hz.
 const ROLLING_HZ: f64 = 250.10;
 
 /// The chapter: what the motion says, then what follows from geometry and speed. What was not computed is left out.
-pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<StudyPiece> {
+pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<Piece> {
     let facts = Facts(reproduction);
     let dynamics = [
         facts.simplification(),
@@ -29,16 +29,16 @@ pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<StudyPiece> {
         if sentences.iter().all(Option::is_none) {
             return;
         }
-        pieces.push(StudyPiece::Words(head.into()));
+        pieces.push(Piece::Words(head.into()));
         for sentence in sentences.iter().flatten() {
             number += 1;
-            pieces.push(StudyPiece::Words(format!("{number}. {sentence}")));
+            pieces.push(Piece::Words(format!("{number}. {sentence}")));
         }
     };
     put("What the motion of the bearing says:", &dynamics);
     put("What follows from geometry, speed and slip, whatever the contact forces:", &geometry);
     if pieces.is_empty() {
-        pieces.push(StudyPiece::Words("Too little was run to say.".into()));
+        pieces.push(Piece::Words("Too little was run to say.".into()));
     }
     pieces
 }

@@ -2,12 +2,12 @@
 
 use crate::outcome::{Outcome, counts, not_counted, ours};
 use crate::reproduction::Reproduction;
-use brinell_report::{Chapter, Study, StudyPiece, Table};
+use brinell_report::{Chapter, Page, Piece, Table};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// The text. Pictures are linked as from the folder above `book`, where the file that includes this one is.
-pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> String {
+pub(crate) fn text(study: &Page, reproduction: &Reproduction, book: &Path) -> String {
     let folder = book.file_name().map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
     let beside = reproduction.beside.is_some();
     let laws = if beside { " --laws mechanics" } else { "" };
@@ -31,29 +31,26 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
         }
         for piece in &chapter.pieces {
             match piece {
-                StudyPiece::Words(words) | StudyPiece::Note(words) => {
+                Piece::Words(words) | Piece::Note(words) => {
                     let _ = writeln!(text, "{words}\n");
                 }
-                StudyPiece::Claims(_) => claims(&mut text, &reproduction.outcomes),
-                StudyPiece::Table(one) => table(&mut text, one),
-                StudyPiece::Curves(one, _) => picture(&mut text, &folder, &one.name, &one.title),
-                StudyPiece::Stack(one) => {
+                Piece::Claims(_) => claims(&mut text, &reproduction.outcomes),
+                Piece::Table(one) => table(&mut text, one),
+                Piece::Curves(one, _) => picture(&mut text, &folder, &one.name, &one.title),
+                Piece::Stack(one) => {
                     picture(&mut text, &folder, &one.name, &one.title);
                     if !one.note.is_empty() {
                         let _ = writeln!(text, "{}\n", one.note);
                     }
                 }
-                StudyPiece::Plan(name, view) => picture(&mut text, &folder, name, &view.plan_title),
-                StudyPiece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
-                StudyPiece::Code(toml) => {
+                Piece::Plan(name, view) => picture(&mut text, &folder, name, &view.plan_title),
+                Piece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
+                Piece::Code(toml) => {
                     let _ = writeln!(text, "```toml\n{toml}```\n");
                 }
                 // What a reproduction has not; its failures are among its warnings.
-                StudyPiece::Map(_)
-                | StudyPiece::Misfit(..)
-                | StudyPiece::Course(_)
-                | StudyPiece::Facts(_)
-                | StudyPiece::Failures(..) => {}
+                // The chapter has no other pieces.
+                _ => {}
             }
         }
     }

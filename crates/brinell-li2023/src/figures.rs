@@ -8,9 +8,7 @@ use crate::{Case, Experiment, Numbers, Outline, RMS, case};
 use brinell::scenario::{Laws, Scenario};
 use brinell::signal::Estimate;
 use brinell_report::short;
-use brinell_report::{
-    Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Overlay, Stack, StudyPiece, Table,
-};
+use brinell_report::{Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Overlay, Piece, Stack, Table};
 
 /// Channels of a plot, and what is plotted: one picture.
 struct Shown {
@@ -73,7 +71,7 @@ pub(crate) fn chapter(
         curves: cases.iter().map(|case| curves(case.id)).collect(),
         // They tell of the paper's laws.
         pieces: match laws {
-            Laws::Li2023 => vec![StudyPiece::Words(experiment.words.into())],
+            Laws::Li2023 => vec![Piece::Words(experiment.words.into())],
             Laws::Mechanics => vec![],
         },
     };
@@ -91,27 +89,19 @@ pub(crate) fn chapter(
                 continue;
             }
             let last = experiment.figures.last().unwrap_or(&first);
-            pieces.push(StudyPiece::Trend(trend(
-                &format!("fig{last:02}"),
-                &shown,
-                label,
-                unit,
-                values,
-                &cases,
-                numbers,
-            )));
+            pieces.push(Piece::Trend(trend(&format!("fig{last:02}"), &shown, label, unit, values, &cases, numbers)));
         }
     }
-    pieces.push(StudyPiece::Table(table(&cases, numbers)));
+    pieces.push(Piece::Table(table(&cases, numbers)));
     if !starts.is_empty() {
-        pieces.push(StudyPiece::Table(start_table(&starts, laws, numbers)));
+        pieces.push(Piece::Table(start_table(&starts, laws, numbers)));
     }
     let short = figures(experiment);
     Chapter::new(&format!("fig{first:02}"), &short, &format!("{short}: {}", experiment.title), pieces)
 }
 
 /// Waveforms from t = 0.
-fn from_start(starts: &[&Case], numbers: &Numbers, curves: &impl Fn(&str) -> Option<Curves>) -> Vec<StudyPiece> {
+fn from_start(starts: &[&Case], numbers: &Numbers, curves: &impl Fn(&str) -> Option<Curves>) -> Vec<Piece> {
     let mut drawn = Drawn {
         names: (starts.iter()).map(|case| with_rms(case, "sensor_ax.first_285ms.rms", numbers)).collect(),
         curves: starts.iter().map(|case| curves(case.id)).collect(),
@@ -157,7 +147,7 @@ fn with_rms(case: &Case, name: &str, numbers: &Numbers) -> String {
 struct Drawn {
     names: Vec<String>,
     curves: Vec<Option<Curves>>,
-    pieces: Vec<StudyPiece>,
+    pieces: Vec<Piece>,
 }
 
 impl Drawn {
@@ -208,7 +198,7 @@ impl Drawn {
     }
 
     fn missing(&mut self, kind: CurveKind) {
-        self.pieces.push(StudyPiece::Words(format!("{}: not computed.", kind.title)));
+        self.pieces.push(Piece::Words(format!("{}: not computed.", kind.title)));
     }
 
     /// Curves in one plot.
@@ -216,7 +206,7 @@ impl Drawn {
         match kind.overlay(name, kind.title, &self.some(places)) {
             Some(overlay) => {
                 let names = self.names.clone();
-                self.pieces.push(StudyPiece::Curves(overlay, names));
+                self.pieces.push(Piece::Curves(overlay, names));
             }
             None => self.missing(kind),
         }
@@ -236,7 +226,7 @@ impl Drawn {
         }
         let note = format!("{} {more}", kind.note).trim().into();
         let names = self.names.clone();
-        self.pieces.push(StudyPiece::Stack(Stack { name: name.into(), title, panels, names, alike, note }));
+        self.pieces.push(Piece::Stack(Stack { name: name.into(), title, panels, names, alike, note }));
     }
 
     /// Load, cage forces and spin around the bearing, of the first case.
@@ -263,7 +253,7 @@ impl Drawn {
             shown.against_mm = other.polygons_mm.into_iter().next().unwrap_or_default();
             shown.against = case.label.into();
         }
-        self.pieces.push(StudyPiece::Plan(name.into(), Box::new(shown)));
+        self.pieces.push(Piece::Plan(name.into(), Box::new(shown)));
     }
 }
 

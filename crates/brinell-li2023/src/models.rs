@@ -6,7 +6,7 @@ use crate::points::points;
 use crate::runs::numbers;
 use crate::{Case, Error, Length, Numbers, Outline, Point, Runs, Verdict, judge};
 use brinell_io::{Cells, Column};
-use brinell_report::{Chapter, StudyPiece, Table};
+use brinell_report::{Chapter, Piece, Table};
 use std::path::{Path, PathBuf};
 
 /// A model that all cases are made with.
@@ -102,7 +102,7 @@ impl OtherVerdicts {
             rows,
             "The same cases, all else alike. What tilts has damage as on a half-space and exact geometry, so that law in the plane is between both.",
         );
-        let pieces = vec![StudyPiece::Words(self.found()), StudyPiece::Table(table)];
+        let pieces = vec![Piece::Words(self.found()), Piece::Table(table)];
         Chapter::new("models", "Tilting", "With rollers and rings that tilt", pieces)
     }
 

@@ -8,7 +8,7 @@ use crate::request::Request;
 use crate::{BASE, Basis, Length};
 use crate::{believe, figures, survives};
 use brinell::scenario::{Laws, Scenario};
-use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, capital};
+use brinell_report::{Chapter, DamageView, Fact, Page, Piece, Table, capital};
 
 /// How verdicts come about, in words, after what intervals are.
 const RULES: [&str; 8] = [
@@ -86,7 +86,7 @@ pub(crate) fn study(
     reproduction: &Reproduction,
     curves: impl Fn(&str) -> Option<Curves>,
     plan: impl Fn(&Scenario) -> Option<DamageView>,
-) -> Study {
+) -> Page {
     let request = &reproduction.request;
     let mut chapters = match &reproduction.beside {
         Some(all) => survives::chapters(all),
@@ -94,7 +94,7 @@ pub(crate) fn study(
             let cards = reproduction.outcomes.iter().map(card).collect();
             vec![
                 Chapter::new("believe", "What to believe", "What to believe", believe::pieces(reproduction)),
-                Chapter::new("claims", "Claims", "The paper’s claims", vec![StudyPiece::Claims(cards)]),
+                Chapter::new("claims", "Claims", "The paper’s claims", vec![Piece::Claims(cards)]),
             ]
         }
     };
@@ -104,10 +104,10 @@ pub(crate) fn study(
         chapters.extend(sensitivity.chapters());
     }
     chapters.extend(reproduction.models.as_ref().map(|models| models.chapter()));
-    let mut rules: Vec<StudyPiece> = rules(request.length, request.laws).into_iter().map(StudyPiece::Words).collect();
-    rules.push(StudyPiece::Table(runs(request)));
+    let mut rules: Vec<Piece> = rules(request.length, request.laws).into_iter().map(Piece::Words).collect();
+    rules.push(Piece::Table(runs(request)));
     chapters.push(Chapter::new("rules", "Rules", "How verdicts come about", rules));
-    let scenario = vec![StudyPiece::Code(BASE.into())];
+    let scenario = vec![Piece::Code(BASE.into())];
     chapters.push(Chapter::new("scenario", "Base scenario", "Base scenario", scenario));
     let mut warnings = Vec::new();
     if reproduction.interrupted {
@@ -117,7 +117,7 @@ pub(crate) fn study(
         warnings.push(format!("{case} failed: {reason}"));
     }
     let facts = facts(reproduction);
-    Study {
+    Page {
         title: match request.laws {
             Laws::Li2023 => "Li et al. (2023), reproduced".into(),
             Laws::Mechanics => "Li et al. (2023) under the laws of mechanics".into(),
@@ -139,7 +139,7 @@ pub(crate) fn study(
         footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
                  page."
             .into(),
-        ..Study::default()
+        ..Page::default()
     }
 }
 

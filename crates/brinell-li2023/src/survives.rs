@@ -2,17 +2,17 @@
 //! numbers and verdicts are taken from what was computed; what was not is left out.
 
 use crate::beside::{Change, Joined, brief, found, table};
-use brinell_report::{Chapter, StudyPiece};
+use brinell_report::{Chapter, Piece};
 
 /// The chapters: the sentences, and the table behind them.
 pub(crate) fn chapters(all: &[Joined]) -> Vec<Chapter> {
-    let mut pieces = vec![StudyPiece::Words(found(all))];
+    let mut pieces = vec![Piece::Words(found(all))];
     let sentences = Facts(all).sentences();
     if sentences.is_empty() {
-        pieces.push(StudyPiece::Words("Too little was run for a sentence.".into()));
+        pieces.push(Piece::Words("Too little was run for a sentence.".into()));
     }
     let numbered = sentences.iter().enumerate().map(|(k, words)| format!("{}. {words}", k + 1));
-    pieces.extend(numbered.map(StudyPiece::Words));
+    pieces.extend(numbered.map(Piece::Words));
     vec![
         Chapter::new("survives", "What survives", "What survives", pieces),
         Chapter::table("beside", "Side by side", table(all)),

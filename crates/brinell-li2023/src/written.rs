@@ -6,13 +6,13 @@ use crate::reproduction::Reproduction;
 use crate::{BASE, Error, beside, book, outcome, page};
 use brinell::scenario::Scenario;
 use brinell_io::atomic_write;
-use brinell_report::{DamageView, Picture, Study};
+use brinell_report::{DamageView, Page, Picture};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
 impl Reproduction {
     /// The page. `plan` gives the view from above of a scenario's first defect.
-    pub fn study(&self, files: &CurveFiles, plan: impl Fn(&Scenario) -> Option<DamageView>) -> Study {
+    pub fn study(&self, files: &CurveFiles, plan: impl Fn(&Scenario) -> Option<DamageView>) -> Page {
         let curves = |id: &str| {
             let point = self.request.points.iter().find(|p| p.case.id == id)?;
             files.curves(&point.task.fingerprint)
@@ -51,7 +51,7 @@ impl Reproduction {
     ///
     /// # Errors
     /// Where the folder cannot be made or a file cannot be written.
-    pub fn write_book(&self, study: &Study, pictures: &[Picture], book: &Path) -> Result<Vec<PathBuf>, Error> {
+    pub fn write_book(&self, study: &Page, pictures: &[Picture], book: &Path) -> Result<Vec<PathBuf>, Error> {
         make_folder(book)?;
         let text = book::text(study, self, book);
         if self.beside.is_some() {
@@ -73,8 +73,8 @@ impl Reproduction {
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_page(study: &Study, folder: &Path) -> Result<PathBuf, Error> {
-    put(folder, "reproduce.html", &brinell_report::study_html(study))
+pub fn write_page(study: &Page, folder: &Path) -> Result<PathBuf, Error> {
+    put(folder, "reproduce.html", &brinell_report::html(study))
 }
 
 fn put(folder: &Path, name: &str, text: &str) -> Result<PathBuf, Error> {

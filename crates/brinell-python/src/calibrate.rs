@@ -9,7 +9,7 @@ use crate::wait::{Watch, attended, threads};
 use brinell::analysis::Unit;
 use brinell::document::on_one_line;
 use brinell::simulate::Simulation;
-use brinell_report::{Study, calibration_undetermined, calibration_verdict, study_html};
+use brinell_report::{Page, calibration_undetermined, calibration_verdict, html};
 use brinell_study::calibrate::{
     self as study, CalibrateError, FitPlan, Key, Load, Measured, Outcome, Pattern, Target, Unfinished, bounds,
     check_keys, middle,
@@ -38,7 +38,7 @@ impl Calibration {
 
     /// What `calibrate.html` holds.
     fn to_html(&self, py: Python<'_>) -> String {
-        py.detach(|| study_html(&Study::of_outcome(&self.0)))
+        py.detach(|| html(&Page::of_outcome(&self.0)))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::convert::{json_to_python, table};
 use crate::run::Run;
 use brinell::result::RunResult;
 use brinell::simulate::End;
-use brinell_report::{Study, beforehand, doubts, study_html};
+use brinell_report::{Page, beforehand, doubts, html};
 use brinell_study::campaign::{self, Compared, Side, check_labels, sides_json, sides_table};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -55,7 +55,7 @@ impl Comparison {
     /// What `compare.html` holds.
     fn to_html(&self, py: Python<'_>) -> String {
         let all = results(&self.runs);
-        py.detach(|| study_html(&Study::of_runs(&self.sides, &all, &self.compared, self.warnings(&all))))
+        py.detach(|| html(&Page::of_runs(&self.sides, &all, &self.compared, self.warnings(&all))))
     }
 }
 

@@ -15,7 +15,7 @@ use brinell::result::Parts;
 use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary;
-use brinell_report::{Report, html};
+use brinell_report::{Page, html};
 use brinell_study::campaign::{BALANCED, Misses, assumed, count, of_results, run_spread};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -271,7 +271,7 @@ impl Run {
     /// What `report.html` holds; a run without the damage is drawn behind.
     #[pyo3(signature = (healthy=None))]
     fn to_html(&self, py: Python<'_>, healthy: Option<&Self>) -> String {
-        self.with_parts(py, healthy, |parts| html(&Report::of_run(parts)))
+        self.with_parts(py, healthy, |parts| html(&Page::of_run(parts, &[], None)))
     }
 
     /// What `summary.json` holds under `spread`: the assumed values at both ends of their plausible ranges, `jobs` runs at a time.

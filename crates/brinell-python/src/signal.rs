@@ -7,7 +7,7 @@ use crate::wait::unstoppable;
 use brinell::analysis::{AnalysisError, MachineClass, to_json};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
 use brinell_measured::{Asked, Called, Elements, GivenSpeed, Measurement, Problem, Request, examine};
-use brinell_report::{AnalysisReport, Analyzed, analysis_html};
+use brinell_report::{AnalysisReport, Analyzed, html};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -235,7 +235,7 @@ impl Findings {
         let x: Vec<f64> = array.as_array().iter().map(|v| self.factor * v).collect();
         let (found, lead, m) = (&self.found, self.found.lead(), &self.found.measurement);
         Ok(py.detach(|| {
-            analysis_html(&AnalysisReport::of_findings(&brinell_report::Findings {
+            let report = AnalysisReport::of_findings(&brinell_report::Findings {
                 signal: Analyzed { name: title, x: &x, rate: m.rate.value, analysis: &lead.analysis },
                 unit: &m.unit.value,
                 verdict: &lead.analysis.verdict(),
@@ -246,7 +246,8 @@ impl Findings {
                 levels: &lead.levels,
                 velocity: found.velocity.as_ref(),
                 against: None,
-            }))
+            });
+            html(&report.into())
         }))
     }
 }

@@ -5,7 +5,7 @@
 use brinell::plausibility::Beforehand;
 use brinell::result::Parts;
 use brinell::scenario::{Defect, Scenario, Shape, Surface};
-use brinell_report::{Report, html};
+use brinell_report::{Page, html};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -24,7 +24,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let loaded = &brinell::document::read(&scenario.to_toml(), &[]).map_err(brinell::Error::from)?;
     let (simulation, outcome, findings) = (&result.simulation, &result.outcome, &result.findings);
     let beforehand = &Beforehand::of(&scenario, simulation.model());
-    let report = Report::of_run(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None });
-    std::fs::write(std::env::args().nth(1).as_deref().unwrap_or("report.html"), html(&report))?;
+    let parts = Parts { loaded, simulation, outcome, findings, beforehand, healthy: None };
+    let page = Page::of_run(&parts, &[], None);
+    std::fs::write(std::env::args().nth(1).as_deref().unwrap_or("report.html"), html(&page))?;
     Ok(())
 }

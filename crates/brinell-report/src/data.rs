@@ -4,16 +4,7 @@
 //! hold an exponent as `N/m^(10/9)` or `m/s^2`; it is typeset, not computed with. Missing data is an empty vector or
 //! `None`, and a value that could not be computed is NaN: both are shown as such.
 
-use crate::damage::{DamageCurves, DamageView};
-use crate::fact::Fact;
-use crate::motion::Motion;
-use crate::orbit::CageOrbits;
-use crate::sensor::SensorView;
-use crate::slip::SlipRow;
-use crate::spectrogram::Spectrogram;
-use brinell::document::Provenance;
 use brinell::observe::passes::PassPoint;
-use brinell_study::campaign::Level;
 
 /// Where the values of a curve are.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,23 +42,13 @@ impl Tone {
     }
 }
 
-/// Everything one page shows.
+/// The signal of a run at the sensor, in all of its pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Report {
+pub struct Signals {
     /// The run's name.
     pub title: String,
-    /// One line under it: bearing, defect, speed, load.
+    /// Bearing, defect, speed, load.
     pub subtitle: String,
-    /// The result in a sentence; may be empty.
-    pub lead: String,
-    /// The version of the program that made the run.
-    pub version: String,
-    /// Why the run ended early, where it did.
-    pub partial: Option<String>,
-    /// What the reader should know before the numbers.
-    pub warnings: Vec<String>,
-    /// Headline numbers.
-    pub facts: Vec<Fact>,
     /// The healthy bearing beside it; empty where it was not run.
     pub healthy: Healthy,
     /// The sensor acceleration.
@@ -80,45 +61,11 @@ pub struct Report {
     pub envelope_orders: Spectrum,
     /// The bearing's defect frequencies as orders, in `frequency_hz`.
     pub order_markers: Vec<Marker>,
-    /// Its spectrogram.
-    pub spectrogram: Spectrogram,
     /// The bearing's defect frequencies.
     pub markers: Vec<Marker>,
-    /// The defects: seen from above, and the contact conditions during roller passage.
-    pub damage: Vec<DamageView>,
-    /// Why there is damage that `damage` does not show; a bearing without both is healthy.
-    pub undrawn_damage: Option<String>,
-    /// Rollers passing a defect.
-    pub passes: Vec<Pass>,
-    /// Contact force around the bearing, a row each.
-    pub load_distribution: Vec<RowLoad>,
-    /// The load along a roller of the bearing without damage, where it is uneven.
-    pub along: Option<DamageCurves>,
-    /// Indicators of the signals.
-    pub indicators: IndicatorTable,
-    /// Slip of rollers and cages.
-    pub slip: Vec<Fact>,
-    /// The same over time and place.
-    pub slip_rows: Vec<SlipRow>,
-    /// Orbits of the cages' centres.
-    pub cage_orbits: CageOrbits,
-    /// What is between the outer ring and the record.
-    pub sensor: SensorView,
-    /// The bearing in motion.
-    pub motion: Motion,
-    /// Momentum and energy audit, solver error.
-    pub audits: Vec<Fact>,
-    /// Steps, rejections, right-hand sides, time taken.
-    pub solver_work: Vec<Fact>,
-    /// What was given and what was assumed.
-    pub assumptions: Vec<Provenance>,
-    /// The sensor's levels and what defects show, with what assumed values do to them, where that was run.
-    pub spread: Option<Vec<Level>>,
-    /// The scenario, complete.
-    pub scenario_toml: String,
 }
 
-/// The same bearing without its damage, drawn behind it in grey: values at the places of the report's own curves.
+/// The same bearing without its damage, drawn behind it in grey: values at the places of the run's own curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Healthy {
     /// As `waveform.series`; this and the others empty where there is none.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::embedded::{Plot, SCRIPT};
+use crate::embedded::SCRIPT;
 use crate::encode::base64;
 use crate::font;
 use crate::layout::Layout;
@@ -15,12 +15,12 @@ use sha2::{Digest, Sha256};
 pub(crate) const THINNED: &str = "Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.";
 
 /// A page up to the end of its header: title, a line under it, the version of the program that `done` it ("Simulated");
-/// both may be empty. Each of `alerts` is a few words in bold, and what is to be said of them; either may be empty.
-pub(crate) fn open<'a>(
+/// both may be empty. `warning`: a few words in bold, and what is to be said of them.
+pub(crate) fn open(
     title: &str,
     subtitle: &str,
     (done, version): (&str, &str),
-    alerts: impl IntoIterator<Item = (&'a str, &'a str)>,
+    warning: Option<(&str, &str)>,
 ) -> String {
     let mut page = String::with_capacity(1 << 20);
     head(&mut page, title);
@@ -30,7 +30,7 @@ pub(crate) fn open<'a>(
     if !version.is_empty() {
         let _ = writeln!(page, "<p class=\"version\">{} by brinell {}</p>", done, escape(version));
     }
-    for (strong, words) in alerts {
+    if let Some((strong, words)) = warning {
         alert(&mut page, strong, words);
     }
     page.push_str("</header>\n");
@@ -51,11 +51,6 @@ pub(crate) fn lead(page: &mut String, words: &str) {
     if !words.is_empty() {
         let _ = writeln!(page, "<p class=\"lead\">{}</p>", escape(words));
     }
-}
-
-/// Warnings as [`open`] takes them.
-pub(crate) fn plain(warnings: &[String]) -> impl Iterator<Item = (&str, &str)> {
-    warnings.iter().map(|words| ("", words.as_str()))
 }
 
 /// What must not be overlooked.
@@ -156,19 +151,13 @@ pub(crate) fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Pictu
     page.push_str("</figure>\n");
 }
 
-/// A [`figure`] that the page's script may redraw.
-pub(crate) fn plot<'a>(page: &mut String, id: &str, draw: impl Fn(Layout) -> Plot<'a>, caption: &str) {
-    figure(page, id, |layout| draw(layout).picture(), caption);
-    draw(Layout::Wide).embed(page);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn page(script: &[&str]) -> String {
         let title = "a <meta charset=\"utf-8\">\n page";
-        close(open(title, "", ("", ""), []), "", script)
+        close(open(title, "", ("", ""), None), "", script)
     }
 
     #[test]

@@ -2,15 +2,16 @@
 //!
 //! The page needs no network and is complete without its script, which only adds zoom, cursors and saving of pictures.
 //! Every picture is drawn twice, for a desktop and for a phone, and thinned to the pixels it has (smallest and largest
-//! value of each column; the largest alone in spectra); nothing here changes a number that was computed. The pages of a
-//! measured signal and of studies are public for the command and Python, and are not listed here.
+//! value of each column; the largest alone in spectra); nothing here changes a number that was computed. Every page is a
+//! [`Page`] of chapters; those of a measured signal and of several runs are public for the command and Python, and not
+//! listed here.
 //!
 //! ```
-//! use brinell_report::{Layout, Report, html, pictures};
+//! use brinell_report::{Layout, Page, html, pictures};
 //!
-//! let report = Report { title: "nn3007-rectangle".into(), ..Report::default() };
-//! assert!(html(&report).starts_with("<!DOCTYPE html>"));
-//! assert_eq!(pictures(&report, Layout::Wide)[0].name, "overview");
+//! let page = Page { title: "nn3007-rectangle".into(), ..Page::default() };
+//! assert!(html(&page).starts_with("<!DOCTYPE html>"));
+//! assert!(pictures(&page, Layout::Wide).is_empty());
 //! ```
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -19,6 +20,7 @@ mod analysis;
 mod axial;
 mod calibrate;
 mod chart;
+mod claims;
 mod damage;
 mod data;
 mod defects;
@@ -42,7 +44,6 @@ mod plots;
 mod quantity;
 mod raster;
 mod run;
-mod sections;
 mod sensor;
 mod shape;
 mod sheet;
@@ -50,27 +51,25 @@ mod side_by_side;
 mod slip;
 mod spectrogram;
 mod spread;
-mod study;
 mod sweep;
 mod tables;
 mod thin;
 
 #[doc(hidden)]
-pub use analysis::{
-    AnalysisReport, Analyzed, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, orders_in_hz,
-    ratio, scaled,
-};
+pub use analysis::{AnalysisReport, Analyzed, Findings, ZONES, called, level_lines, orders_in_hz, ratio, scaled};
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
 pub use calibrate::{calibration_undetermined, calibration_verdict, interval_text};
+#[doc(hidden)]
+pub use claims::{ClaimCard, ClaimPart, Tagged};
 pub use damage::{DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch, PressureView};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_pressure, damage_section, load_along};
 #[doc(hidden)]
 pub use data::{Along, Tone};
 pub use data::{
-    Estimate, Event, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum,
+    Estimate, Event, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, RowLoad, Series, Signals, Spectrum,
     Waveform,
 };
 #[doc(hidden)]
@@ -92,18 +91,17 @@ pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
 #[doc(hidden)]
 pub use overlay::{OverlaidCurve, Overlay, Vertical};
-pub use page::html;
+#[doc(hidden)]
+pub use page::{Chapter, Figure, Piece, Stack};
+pub use page::{Page, html, pictures};
 pub use picture::{CurveTable, Error, Picture};
-pub use plots::pictures;
 #[doc(hidden)]
 pub use plots::{detail_window, headline, overview};
 #[doc(hidden)]
 pub use quantity::{value_text, words};
 #[doc(hidden)]
-pub use run::defect_markers;
+pub use run::{chapters, defect_markers};
 pub use sensor::SensorView;
-#[doc(hidden)]
-pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{Headline, beforehand, compared_headline, doubts};
 pub use slip::SlipRow;
@@ -112,8 +110,6 @@ pub use slip::slip_over_time;
 pub use spectrogram::Spectrogram;
 #[doc(hidden)]
 pub use spectrogram::spectrogram;
-#[doc(hidden)]
-pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, study_html, study_pictures};
 #[doc(hidden)]
 pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, sweep_lead, sweep_legend};
 pub use tables::Table;

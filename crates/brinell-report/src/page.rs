@@ -1,232 +1,410 @@
-//! The page of a run: its sections.
+//! What every page is: chapters of pieces, under a heading, with the result first. One renderer writes all of them and
+//! draws their pictures for files.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
+use std::sync::Arc;
 
-use crate::damage::{damage_passage, damage_photo, damage_plan, damage_pressure, damage_section, load_along};
-use crate::data::Report;
-use crate::frame::{THINNED, alert, close, code, contents, figure, lead, none, open, plain, plot, section};
+use crate::claims::{ClaimCard, claim};
+use crate::damage::{DamageView, damage_plan};
+use crate::data::Tone;
+use crate::embedded::Plot;
+use crate::fact::Fact;
+use crate::frame::{alert, close, code, contents, figure, lead, none, open, section, unit_html};
 use crate::layout::Layout;
-use crate::load::load_distribution;
 use crate::markup::escape;
-use crate::number::{capital, significant};
+use crate::misfit::{Tried, course_plot, embed_course, embed_key, key_plot};
+use crate::overlay::{Overlay, overlay, stacked};
 use crate::picture::Picture;
-use crate::plots;
-use crate::tables::{assumptions, close_table, fact_table, facts, indicators, open_table};
+use crate::sweep::{self, HeatMap, IndicatorPlot, heat_map, indicator_plot};
+use crate::tables::{Table, fact_table, facts, failures, table};
+use brinell_study::calibrate::Found;
 
-/// Passes drawn; a page with more is no longer read.
-const PASSES: usize = 12;
-
-/// The self-contained report page.
-pub fn html(report: &Report) -> String {
-    let title = if report.title.is_empty() { "Bearing vibration" } else { &report.title };
-    let mut page = open(
-        title,
-        &report.subtitle,
-        ("Simulated", &report.version),
-        report.partial.as_deref().map(|why| ("This run is partial.", why)),
-    );
-    let mut sections: Vec<Section> = vec![
-        ("waveform", "Waveform", "Waveform", waveform),
-        ("spectrum", "Spectrum", "Spectrum", spectrum),
-        ("envelope", "Envelope", "Envelope spectrum", envelope),
-        ("orders", "Orders", "Envelope orders", orders),
-        ("spectrogram", "Spectrogram", "Spectrogram", crate::sections::spectrogram),
-        ("sensor", "Sensor", "Sensor", crate::sections::sensor),
-        ("damage", "Damage", "Damage", damage),
-        ("passes", "Passes", "Passing the defect", passes),
-        ("load", "Load", "Load distribution", load),
-        ("motion", "Motion", "The bearing in motion", crate::sections::motion),
-        ("orbit", "Orbit", "Cage orbit", crate::sections::orbit),
-        ("indicators", "Indicators", "Indicators", indicators),
-        ("slip", "Slip", "Slip", crate::sections::slip),
-        ("spread", "Spread", "What assumed values do to the levels", crate::spread::spread),
-        ("assumptions", "Assumptions", "Assumptions", assumptions),
-        ("audits", "Audits", "Appendix: audits", |page, r| fact_table(page, &r.audits, "No audit was made.")),
-        ("work", "Solver", "Appendix: solver work", |page, r| {
-            fact_table(page, &r.solver_work, "The solver’s work was not counted.");
-        }),
-        ("scenario", "Scenario", "Appendix: scenario", scenario),
-    ];
-    if report.envelope_orders.amplitude.is_empty() {
-        sections.retain(|(id, ..)| *id != "orders");
-    }
-    if report.spread.is_none() {
-        sections.retain(|(id, ..)| *id != "spread");
-    }
-    if !report.sensor.is_there() {
-        sections.retain(|(id, ..)| *id != "sensor");
-    }
-    contents(&mut page, sections.iter().map(|(id, short, ..)| (*id, *short)));
-    lead(&mut page, &report.lead);
-    for (strong, words) in plain(&report.warnings) {
-        alert(&mut page, strong, words);
-    }
-    facts(&mut page, &report.facts);
-    for (id, _, name, write) in sections {
-        section(&mut page, id, name, |page| write(page, report));
-    }
-    close(page, THINNED, &[include_str!("script/motion.js")])
+/// A piece of a chapter.
+#[derive(Clone, Debug)]
+pub enum Piece {
+    /// A paragraph.
+    Words(String),
+    /// A paragraph in grey: what marks mean, or why something is missing.
+    Note(String),
+    /// What must not be overlooked, after a few words in bold.
+    Alert(&'static str, String),
+    /// The verdict in its colour.
+    Verdict(Tone, String),
+    /// A heading within the chapter.
+    Heading(String),
+    /// Points of a list.
+    List(Vec<String>),
+    /// A picture of its own.
+    Figure(Figure),
+    /// Small pictures of one thing, under words that are markup.
+    Tile(String, Vec<Figure>),
+    /// Curves, and the names that they belong to.
+    Curves(Overlay, Vec<String>),
+    /// Plots one below the other.
+    Stack(Stack),
+    /// Damage from above, under the name of the picture's file.
+    Plan(String, Box<DamageView>),
+    /// Numbers with intervals against a quantity.
+    Trend(IndicatorPlot),
+    /// Numbers over two quantities.
+    Map(HeatMap),
+    /// The misfit of the runs of a calibration over a key.
+    Misfit(Found, Vec<Tried>),
+    /// The misfit of the runs of a calibration in their order.
+    Course(Vec<f64>),
+    /// Words and numbers; its title is a heading.
+    Table(Table),
+    /// Numbers, a line each, with what is to be said of them.
+    Facts(Vec<Fact>),
+    /// Headline numbers.
+    Headline(Vec<Fact>),
+    /// What failed, and why. First what one of them is called: "File".
+    Failures(String, Vec<(String, String)>),
+    /// Text as written in a file.
+    Code(String),
+    /// Claims.
+    Claims(Vec<ClaimCard>),
+    /// Markup with a form of its own.
+    Markup(String),
 }
 
-/// Anchor, name in the list of contents, heading, and what is under it.
-type Section = (&'static str, &'static str, &'static str, fn(&mut String, &Report));
-
-fn waveform(page: &mut String, report: &Report) {
-    let series = &report.waveform.series;
-    if series.values.is_empty() && report.waveform.overview.is_none() {
-        return none(page, "No waveform was recorded.");
+impl Piece {
+    /// What `write` puts on a page.
+    pub(crate) fn written(write: impl FnOnce(&mut String)) -> Self {
+        let mut markup = String::new();
+        write(&mut markup);
+        Self::Markup(markup)
     }
-    figure(
-        page,
-        "overview",
-        |layout| plots::overview(report, layout),
-        "The whole run: smallest to largest value. The shaded stretch is shown below.",
-    );
-    let events = match report.waveform.events.len() {
-        0 => "No rolling element passes a defect while this signal was kept.".to_owned(),
-        _ => "Lines mark rolling elements (row·number) that enter and leave the defect.".to_owned(),
+
+    /// Facts, or words where there are none.
+    pub(crate) fn facts(all: &[Fact], absent: &str) -> Self {
+        match all {
+            [] => Self::Note(absent.into()),
+            _ => Self::Facts(all.to_vec()),
+        }
+    }
+}
+
+/// A picture, drawn whenever a page or a file needs it.
+#[derive(Clone)]
+pub struct Figure {
+    id: String,
+    /// Markup.
+    caption: String,
+    draw: Arc<dyn Fn(Layout) -> Picture + Send + Sync>,
+    /// What the page's script redraws it with.
+    embed: Option<Arc<dyn Fn(&mut String) + Send + Sync>>,
+    shown: bool,
+    saved: bool,
+}
+
+impl fmt::Debug for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Figure").field(&self.id).finish()
+    }
+}
+
+impl Figure {
+    /// A picture of data, with a caption in markup.
+    pub(crate) fn still<T: Send + Sync + 'static>(
+        id: impl Into<String>,
+        caption: impl Into<String>,
+        of: &Arc<T>,
+        draw: impl Fn(&T, Layout) -> Picture + Send + Sync + 'static,
+    ) -> Self {
+        let (id, caption, of) = (id.into(), caption.into(), Arc::clone(of));
+        let draw = Arc::new(move |layout| draw(&of, layout));
+        Self { id, caption, draw, embed: None, shown: true, saved: true }
+    }
+
+    /// A plot of data that the script may redraw.
+    pub(crate) fn plot<T: Send + Sync + 'static>(
+        id: impl Into<String>,
+        caption: impl Into<String>,
+        of: &Arc<T>,
+        draw: for<'a> fn(&'a T, Layout) -> Plot<'a>,
+    ) -> Self {
+        let data = Arc::clone(of);
+        let embed: Arc<dyn Fn(&mut String) + Send + Sync> = Arc::new(move |page| draw(&data, Layout::Wide).embed(page));
+        Self { embed: Some(embed), ..Self::still(id, caption, of, move |of, layout| draw(of, layout).picture()) }
+    }
+
+    /// For files alone.
+    pub(crate) fn unseen(self) -> Self {
+        Self { shown: false, ..self }
+    }
+
+    /// For the page alone.
+    pub(crate) fn unsaved(self) -> Self {
+        Self { saved: false, ..self }
+    }
+
+    fn embed(&self, page: &mut String) {
+        if let Some(embed) = &self.embed {
+            embed(page);
+        }
+    }
+}
+
+/// Plots one below the other: curves that would hide one another, or the panels of one figure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stack {
+    /// Name of the picture's file.
+    pub name: String,
+    /// Over all of them.
+    pub title: String,
+    /// The plots, each under its title.
+    pub panels: Vec<Overlay>,
+    /// What the curves belong to.
+    pub names: Vec<String>,
+    /// Whether all have the same axes.
+    pub alike: bool,
+    /// Under them; may be empty.
+    pub note: String,
+}
+
+/// A heading and what is under it.
+#[derive(Clone, Debug, Default)]
+pub struct Chapter {
+    /// Its place in links: letters, digits, hyphens.
+    pub id: String,
+    /// In the list of contents.
+    pub short: String,
+    /// The heading; empty where a table brings its own.
+    pub title: String,
+    /// In this order.
+    pub pieces: Vec<Piece>,
+}
+
+impl Chapter {
+    /// With its pieces.
+    pub fn new(id: &str, short: &str, title: &str, pieces: Vec<Piece>) -> Self {
+        Self { id: id.into(), short: short.into(), title: title.into(), pieces }
+    }
+
+    /// A table and no more, under its own heading.
+    pub fn table(id: &str, short: &str, table: Table) -> Self {
+        Self::new(id, short, "", vec![Piece::Table(table)])
+    }
+
+    /// Of one piece, its heading in the list of contents too.
+    pub(crate) fn of(id: &str, title: &str, piece: Piece) -> Self {
+        Self::new(id, title, title, vec![piece])
+    }
+
+    /// What failed, where anything did: name and reason of each. `each` is what one of them is called: "File".
+    pub fn failures(title: &str, each: &str, all: Vec<(String, String)>) -> Option<Self> {
+        let some = !all.is_empty();
+        some.then(|| Self::new("failures", "Failed", title, vec![Piece::Failures(each.into(), all)]))
+    }
+}
+
+/// Everything that a page shows.
+#[derive(Clone, Debug, Default)]
+pub struct Page {
+    /// Heading of the page.
+    pub title: String,
+    /// One line under it.
+    pub subtitle: String,
+    /// Whether signals were analysed; else runs were simulated.
+    pub analysed: bool,
+    /// The version of the program.
+    pub version: String,
+    /// Why the run ended early, where it did.
+    pub partial: Option<String>,
+    /// The result in a sentence; may be empty.
+    pub lead: String,
+    /// What deserves attention.
+    pub warnings: Vec<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// The chapters.
+    pub chapters: Vec<Chapter>,
+    /// At the end.
+    pub footer: String,
+    /// What the page runs beside what every page does.
+    pub script: &'static str,
+}
+
+/// The page's pictures, for saving as files.
+pub fn pictures(page: &Page, layout: Layout) -> Vec<Picture> {
+    let pieces = page.chapters.iter().flat_map(|chapter| &chapter.pieces);
+    layout.finished(pieces.filter_map(|piece| draw(piece, layout)).collect())
+}
+
+/// As a file holds it.
+fn draw(piece: &Piece, layout: Layout) -> Option<Picture> {
+    match piece {
+        Piece::Figure(figure) => figure.saved.then(|| (figure.draw)(layout)),
+        Piece::Curves(one, names) => Some(overlay(one, names, layout).picture()),
+        Piece::Stack(s) => Some(stacked(&s.name, &s.title, &s.panels, &s.names, s.alike, layout)),
+        Piece::Plan(name, view) => {
+            let mut picture = damage_plan(view, 0, layout);
+            picture.name.clone_from(name);
+            Some(picture)
+        }
+        Piece::Trend(plot) => Some(indicator_plot(plot, layout)),
+        Piece::Map(map) => heat_map(map, layout),
+        Piece::Misfit(key, tried) => Some(key_plot(key, tried, layout)),
+        Piece::Course(chi_squares) => Some(course_plot(chi_squares, layout)),
+        _ => None,
+    }
+}
+
+/// The self-contained page.
+pub fn html(page: &Page) -> String {
+    let done = if page.analysed { "Analysed" } else { "Simulated" };
+    let partial = page.partial.as_deref().map(|why| ("This run is partial.", why));
+    let mut html = open(&page.title, &page.subtitle, (done, &page.version), partial);
+    // Pictures for files alone have a chapter without a name.
+    let shown = || page.chapters.iter().filter(|chapter| !chapter.short.is_empty());
+    contents(&mut html, shown().map(|chapter| (&*chapter.id, &*chapter.short)));
+    lead(&mut html, &page.lead);
+    page.warnings.iter().for_each(|words| alert(&mut html, "", words));
+    facts(&mut html, &page.facts);
+    let mut count = 0;
+    for chapter in shown() {
+        section(&mut html, &chapter.id, &chapter.title, |html| {
+            for piece in &chapter.pieces {
+                count += 1;
+                write_piece(html, piece, count);
+            }
+        });
+    }
+    close(html, &page.footer, &[page.script])
+}
+
+fn write_piece(page: &mut String, piece: &Piece, count: usize) {
+    let (title, caption) = match piece {
+        Piece::Words(words) => {
+            let _ = writeln!(page, "<p>{}</p>", escape(words));
+            return;
+        }
+        Piece::Note(words) => return none(page, &escape(words)),
+        Piece::Alert(strong, words) => return alert(page, strong, words),
+        Piece::Verdict(tone, words) => {
+            let _ = writeln!(page, "<p class=\"verdict {}\">{}</p>", tone.class(), escape(words));
+            return;
+        }
+        Piece::Heading(words) => {
+            let _ = writeln!(page, "<h3>{}</h3>", escape(words));
+            return;
+        }
+        Piece::List(points) => {
+            page.push_str("<ul>\n");
+            points.iter().for_each(|point| page.push_str(&format!("<li>{}</li>\n", escape(point))));
+            page.push_str("</ul>\n");
+            return;
+        }
+        Piece::Figure(one) if !one.shown => return,
+        Piece::Figure(one) => {
+            figure(page, &one.id, &*one.draw, &one.caption);
+            return one.embed(page);
+        }
+        Piece::Tile(words, figures) => {
+            let _ = writeln!(page, "<div class=\"tile\">\n<p>{words}</p>");
+            for one in figures {
+                let _ = writeln!(page, "<figure>{}</figure>", (one.draw)(Layout::Wide).inline(&one.id, ""));
+            }
+            page.push_str("</div>\n");
+            return figures.iter().for_each(|one| one.embed(page));
+        }
+        Piece::Markup(markup) => return page.push_str(markup),
+        Piece::Table(one) => return table(page, one),
+        Piece::Facts(all) => return fact_table(page, all),
+        Piece::Headline(all) => return facts(page, all),
+        Piece::Failures(each, all) => return failures(page, each, all),
+        Piece::Code(text) => return code(page, text),
+        Piece::Claims(cards) if cards.is_empty() => {
+            return none(page, "No claim belongs to what was run.");
+        }
+        Piece::Claims(cards) => return cards.iter().for_each(|card| claim(page, card)),
+        Piece::Curves(one, _) => (escape(&one.title), escape(&one.note)),
+        Piece::Stack(stack) => (escape(&stack.title), escape(&stack.note)),
+        // Its title is in the picture.
+        Piece::Plan(..) => (String::new(), String::new()),
+        Piece::Trend(plot) => (escape(&plot.label), String::new()),
+        Piece::Map(map) if map.unit.is_empty() => (escape(&map.label), String::new()),
+        Piece::Map(map) => (format!("{} ({})", escape(&map.label), unit_html(&map.unit)), String::new()),
+        Piece::Misfit(key, _) => (format!("<code>{}</code>", escape(&key.key.name)), String::new()),
+        Piece::Course(_) => (String::new(), "Dots: each run in the order requested. Line: the best so far.".into()),
     };
-    let name = if series.label.is_empty() { String::new() } else { format!("{}. ", escape(&series.label)) };
-    plot(page, "waveform", |layout| plots::waveform(report, layout), &format!("{name}{events}"));
+    if !title.is_empty() {
+        let _ = writeln!(page, "<h3>{title}</h3>");
+    }
+    let draw = |layout| draw(piece, layout).unwrap_or_else(|| Picture::new("", "", 0.0, 0.0));
+    figure(page, &format!("study{count}"), draw, &caption);
+    match piece {
+        Piece::Curves(one, names) => overlay(one, names, Layout::Wide).embed(page),
+        Piece::Trend(plot) => sweep::embed(page, plot),
+        Piece::Misfit(key, tried) => embed_key(page, key, tried),
+        Piece::Course(chi_squares) => embed_course(page, chi_squares),
+        _ => {}
+    }
 }
 
-fn spectrum(page: &mut String, report: &Report) {
-    let spectrum = &report.spectrum;
-    if spectrum.amplitude.is_empty() {
-        return none(page, "No spectrum was made.");
-    }
-    plot(page, "spectrum", |layout| plots::spectrum(report, layout), &escape(&spectrum.note));
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::{ClaimPart, Tagged};
 
-fn envelope(page: &mut String, report: &Report) {
-    let spectrum = &report.envelope_spectrum;
-    if spectrum.amplitude.is_empty() {
-        return none(page, "No envelope spectrum was made.");
-    }
-    let mut caption = escape(&spectrum.note);
-    if !report.markers.is_empty() {
-        if !caption.is_empty() {
-            caption.push(' ');
-        }
-        caption.push_str(
-            "Above the plot lie the defect frequencies and their harmonics: as found where it says so, else in pure rolling. \
-             Those of damage that is in the bearing run through it as dashed lines.",
-        );
-    }
-    plot(page, "envelope", |layout| plots::envelope_spectrum(report, layout), &caption);
-    if report.markers.is_empty() {
-        return;
-    }
-    open_table(page, false, &["Name", "#Frequency", "Unit", "Excitation", "Defect present"]);
-    for marker in &report.markers {
-        let _ = writeln!(
-            page,
-            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">Hz</td><td>{}</td><td>{}</td></tr>",
-            escape(&marker.label),
-            significant(marker.frequency_hz, 6),
-            escape(&match marker.pure_rolling_hz {
-                Some(hz) => format!("{}; found, in pure rolling {} Hz", marker.meaning, significant(hz, 6)),
-                None => marker.meaning.clone(),
-            }),
-            if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" },
-        );
-    }
-    close_table(page);
-}
-
-fn orders(page: &mut String, report: &Report) {
-    let note = escape(&report.envelope_orders.note);
-    plot(page, "orders", |layout| plots::order_spectrum(report, layout), &note);
-}
-
-fn damage(page: &mut String, report: &Report) {
-    if let Some(why) = &report.undrawn_damage {
-        alert(page, "The bearing’s damage could not be drawn.", why);
-        return;
-    }
-    if report.damage.is_empty() {
-        return none(page, "The bearing is healthy.");
-    }
-    for (index, view) in report.damage.iter().take(PASSES).enumerate() {
-        let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
-        let part = |page: &mut String, what: &str, draw: &dyn Fn(Layout) -> Picture, note: &str| {
-            figure(page, &format!("damage{index}{what}"), draw, &sentence(note));
+    #[test]
+    fn prop_every_piece_is_on_the_page_and_nothing_is_markup() {
+        let card = ClaimCard {
+            place: "4.2".into(),
+            sentence: "a < b & c".into(),
+            verdict: Tagged { word: "holds".into(), tone: Tone::Good },
+            depends: "the filter".into(),
+            parts: vec![ClaimPart { words: "RMS".into(), ours: "<script>".into(), ..ClaimPart::default() }],
+            ..ClaimCard::default()
         };
-        if let Some(photo) = view.photo.as_ref().filter(|_| damage_photo(view, index, Layout::Wide).is_some()) {
-            let empty = || Picture::new("", "", 0.0, 0.0);
-            let draw = |layout| damage_photo(view, index, layout).unwrap_or_else(empty);
-            part(page, "-photo", &draw, &photo.notes.join("; "));
-        }
-        let band = match (view.half_turn_mm, view.element()) {
-            (Some(_), element) => format!("the {element}’s surface, once around"),
-            (None, "ball") => "the track, as wide as a ball is thick".into(),
-            (None, _) => "the track, as wide as a roller is long".into(),
+        let study = Page {
+            title: "T".into(),
+            chapters: vec![Chapter::new(
+                "one",
+                "One",
+                "Chapter one",
+                vec![
+                    Piece::Words("some words".into()),
+                    Piece::Note("x > y".into()),
+                    Piece::Failures("File".into(), vec![("c.csv".into(), "empty <".into())]),
+                    Piece::Curves(Overlay::default(), vec![]),
+                    Piece::Trend(IndicatorPlot::default()),
+                    Piece::Stack(Stack {
+                        panels: vec![Overlay { title: "Panel a".into(), ..Overlay::default() }, Overlay::default()],
+                        ..Stack::default()
+                    }),
+                    Piece::Plan("seen-from-above".into(), Box::default()),
+                    Piece::Table(Table { title: "A table".into(), ..Table::default() }),
+                    Piece::Map(HeatMap { label: "Over both".into(), unit: "m/s^2".into(), ..HeatMap::default() }),
+                    Piece::Code("load_n = [0.0, -3e3] # <down>".into()),
+                    Piece::Claims(vec![card]),
+                    Piece::Claims(vec![]),
+                ],
+            )],
+            ..Page::default()
         };
-        let caption = format!("The damaged surface unrolled, both axes to one scale. The grey band is {band}.");
-        part(page, "", &|layout| damage_plan(view, index, layout), &caption);
-        fact_table(page, &view.facts, "Nothing is known of its size.");
-        if !view.passage.panels.is_empty() {
-            part(page, "-passage", &|layout| damage_passage(view, index, layout), &view.passage.note);
+        let page = html(&study);
+        for part in [
+            "href=\"#one\"",
+            "Chapter one",
+            "some words",
+            "x &gt; y",
+            "empty &lt;",
+            "Panel a",
+            "A table",
+            "Over both (m/s²)",
+            "# &lt;down&gt;",
+            "a &lt; b &amp; c",
+            "tag good",
+            "Depends on the filter",
+            "&lt;script&gt;",
+            "No claim belongs",
+        ] {
+            assert!(page.contains(part), "{part}");
         }
-        for of in &view.pressures {
-            let what = format!("-pressure-{}", of.contact);
-            part(page, &what, &|layout| damage_pressure(view, of, index, layout), &of.note);
-        }
-        if !view.section.panels.is_empty() {
-            part(page, "-section", &|layout| damage_section(view, index, layout), &view.section.note);
-        } else if !view.section.note.is_empty() {
-            none(page, &sentence(&view.section.note));
-        }
+        let pictures = pictures(&study, Layout::Wide);
+        assert_eq!(pictures.len(), 4);
+        assert_eq!(pictures[3].name, "seen-from-above");
     }
-    if report.damage.len() > PASSES {
-        let more = report.damage.len() - PASSES;
-        none(page, &format!("{more} more defects are not drawn."));
-    }
-}
-
-/// A note as a sentence of the page.
-fn sentence(note: &str) -> String {
-    let end = if note.is_empty() || note.ends_with('.') { "" } else { "." };
-    escape(&format!("{}{end}", capital(note)))
-}
-
-fn passes(page: &mut String, report: &Report) {
-    if report.passes.is_empty() {
-        return none(page, "No rolling element passed a defect while it was recorded.");
-    }
-    for (index, pass) in report.passes.iter().take(PASSES).enumerate() {
-        let _ = writeln!(page, "<h3>{}</h3>", escape(&pass.title));
-        let id = format!("pass{index}");
-        figure(page, &id, |layout| plots::pass(pass, index, layout), "");
-    }
-    page.push_str(
-        "<p class=\"none\">Effective contact length, contact stiffness and contact force of one rolling element over its angle from the \
-         defect’s centre.</p>\n",
-    );
-    if report.passes.len() > PASSES {
-        none(page, &format!("{} more passes are not drawn.", report.passes.len() - PASSES));
-    }
-}
-
-fn load(page: &mut String, report: &Report) {
-    if report.load_distribution.is_empty() {
-        return none(page, "Contact forces were not recorded.");
-    }
-    figure(
-        page,
-        "load",
-        |layout| load_distribution(&report.load_distribution, layout),
-        "Contact force of the rolling elements over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
-    );
-    if let Some(along) = &report.along {
-        figure(page, "along", |layout| load_along(along, layout), &sentence(&along.note));
-    }
-}
-
-fn scenario(page: &mut String, report: &Report) {
-    if report.scenario_toml.is_empty() {
-        return none(page, "The scenario is not included.");
-    }
-    page.push_str("<p>The run, complete: this file gives the same result again.</p>\n");
-    code(page, &report.scenario_toml);
 }

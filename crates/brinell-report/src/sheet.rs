@@ -1,57 +1,57 @@
 //! The contact sheet of a data set: a few runs of each class, each with its labels, its waveform and its envelope
 //! spectrum.
 
-use std::fmt::Write as _;
+use std::sync::Arc;
 
 use crate::chart::{Domain, Lane, Mark, Size, Spec, range};
 use crate::data::Along;
 use crate::embedded::{Curve, Plot};
-use crate::frame::{close, none, open, section, unit_html};
+use crate::frame::unit_html;
 use crate::layout::time_unit;
 use crate::markup::escape;
 use crate::number::significant;
+use crate::page::{Chapter, Figure, Page, Piece};
 use crate::picture::{Paint, ink};
-use brinell_study::dataset::{Sheet, SheetRun};
+use brinell_study::dataset::{Sheet, SheetClass, SheetRun};
 
 /// Two of these are beside each other on a desktop, one under the other on a phone.
 const SIZE: Size = Size { width: 460.0, height: 190.0, font: 13.0 };
 const CURVE: Paint = Paint::line(ink::BLUE, 1.0);
 
-/// The self-contained page.
-pub fn sheet_html(sheet: &Sheet) -> String {
-    let runs: usize = sheet.classes.iter().map(|class| class.shown.len()).sum();
-    let subtitle = format!("{runs} of its runs: {}", sheet.signal);
-    let version = ("Simulated", sheet.version.as_str());
-    let mut page = open(&sheet.name, &subtitle, version, []);
-    page.push_str("<main>\n");
-    none(
-        &mut page,
-        "Left the end of the signal, right the spectrum of its envelope in a band; every picture has a scale of its own. Marks: the frequency of the run's damage in pure rolling, and its multiples. \
-         Runs that failed, and runs whose labels are held out, are not shown.",
-    );
-    for class in &sheet.classes {
-        let title = format!("{} · label {}", class.name, class.label);
-        section(&mut page, &format!("class{}", class.label), &title, |page| {
-            none(page, &format!("{} of {} runs.", class.shown.len(), class.runs));
-            for run in &class.shown {
-                put(page, sheet, run);
-            }
-        });
+impl Page {
+    /// The contact sheet of a data set: `sheet.html` of `brinell dataset sheet`.
+    pub fn of_sheet(sheet: Sheet) -> Self {
+        let sheet = Arc::new(sheet);
+        let runs: usize = sheet.classes.iter().map(|class| class.shown.len()).sum();
+        let class = |class: &SheetClass| {
+            let title = format!("{} · label {}", class.name, class.label);
+            let mut pieces = vec![Piece::Note(format!("{} of {} runs.", class.shown.len(), class.runs))];
+            pieces.extend(class.shown.iter().map(|run| tile(&sheet, run)));
+            Chapter::new(&format!("class{}", class.label), &class.name, &title, pieces)
+        };
+        let mut chapters = vec![Chapter::new("pictures", "Pictures", "", vec![Piece::Note(PICTURES.into())])];
+        chapters.extend(sheet.classes.iter().map(class));
+        Self {
+            title: sheet.name.clone(),
+            subtitle: format!("{runs} of its runs: {}", sheet.signal),
+            version: sheet.version.clone(),
+            chapters,
+            ..Self::default()
+        }
     }
-    close(page, "", &[])
 }
 
-fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
-    let _ = writeln!(page, "<div class=\"tile\">\n<p>{}</p>", words(sheet, run));
-    let plots = || [("w", waveform(sheet, run)), ("e", envelope(sheet, run))];
-    for (id, plot) in plots() {
-        let drawn = plot.picture().inline(&format!("run{}-{id}", run.run), "");
-        let _ = writeln!(page, "<figure>{drawn}</figure>");
-    }
-    page.push_str("</div>\n");
-    for (_, plot) in plots() {
-        plot.embed(page);
-    }
+const PICTURES: &str = "Left the end of the signal, right the spectrum of its envelope in a band; every picture has a scale of its own. Marks: the frequency of the run's damage in pure rolling, and its multiples. \
+    Runs that failed, and runs whose labels are held out, are not shown.";
+
+fn tile(sheet: &Arc<Sheet>, run: &SheetRun) -> Piece {
+    let of = Arc::new((Arc::clone(sheet), run.clone()));
+    let id = |what: &str| format!("run{}-{what}", run.run);
+    let figures = vec![
+        Figure::plot(id("w"), "", &of, |(sheet, run), _| waveform(sheet, run)),
+        Figure::plot(id("e"), "", &of, |(sheet, run), _| envelope(sheet, run)),
+    ];
+    Piece::Tile(words(sheet, run), figures)
 }
 
 /// Values that a run keeps for zooming.
@@ -182,7 +182,8 @@ fn lanes(run: &SheetRun, top: f64) -> Vec<Lane> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use brinell_study::dataset::{SheetClass, SheetDefect};
+    use crate::page::html;
+    use brinell_study::dataset::SheetDefect;
 
     fn tile() -> SheetRun {
         let envelope: Vec<f64> = (0..200).map(|k| f64::from(u8::from(k % 20 == 0))).collect();
@@ -217,7 +218,7 @@ mod tests {
             }],
             ..Sheet::default()
         };
-        let page = sheet_html(&report);
+        let page = html(&Page::of_sheet(report));
         for part in [
             "a &lt;b&gt;",
             "outer · label 1",

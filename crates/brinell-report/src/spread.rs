@@ -1,6 +1,5 @@
 //! The section of a page on what assumed values do to the levels: a table of bands, and the tornado of the first level.
 
-use crate::data::Report;
 use crate::frame::unit_html;
 use crate::markup::escape;
 use crate::number::short;
@@ -15,11 +14,7 @@ const LABELS: f64 = 260.0;
 const WIDTH: f64 = 420.0;
 const ROW: f64 = 22.0;
 
-/// Nothing where no spread was run.
-pub(crate) fn spread(page: &mut String, report: &Report) {
-    let Some(levels) = &report.spread else {
-        return;
-    };
+pub(crate) fn spread(page: &mut String, levels: &[Level]) {
     page.push_str(
         "<p>Every assumed value at both ends of its plausible range, one at a time. The band adds their changes as squares of logarithms; it is \
          no confidence interval, for the ranges are judgement.</p>\n",

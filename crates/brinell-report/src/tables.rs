@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::data::{Estimate, Report};
+use crate::data::{Estimate, IndicatorTable};
 use crate::fact::{Fact, Value};
 use crate::frame::{none, unit_html};
 use crate::markup::escape;
@@ -91,10 +91,7 @@ fn judged(ok: bool) -> &'static str {
     }
 }
 
-pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
-    if facts.is_empty() {
-        return none(page, absent);
-    }
+pub(crate) fn fact_table(page: &mut String, facts: &[Fact]) {
     open_table(page, true, &["Quantity", "#Value", "Unit", "Note"]);
     for fact in facts {
         let _ = write!(page, "<tr><th scope=\"row\">{}</th>", escape(&fact.label));
@@ -113,8 +110,7 @@ fn value_cells(page: &mut String, value: &Value, unit: &str) {
     let _ = write!(page, "<td class=\"number\">{value}</td> <td class=\"unit\">{unit}</td>");
 }
 
-pub(crate) fn indicators(page: &mut String, report: &Report) {
-    let table = &report.indicators;
+pub(crate) fn indicators(page: &mut String, table: &IndicatorTable) {
     if table.rows.is_empty() {
         return none(page, "No indicators were computed.");
     }
@@ -155,23 +151,23 @@ fn estimate(cell: &Estimate) -> String {
     }
 }
 
-pub(crate) fn assumptions(page: &mut String, report: &Report) {
-    if report.assumptions.is_empty() {
+pub(crate) fn assumptions(page: &mut String, all: &[Provenance]) {
+    if all.is_empty() {
         return none(page, "No assumptions are listed.");
     }
-    let estimated = report.assumptions.iter().filter(|a| a.assumed).count();
+    let estimated = all.iter().filter(|a| a.assumed).count();
     let _ = writeln!(
         page,
         "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named. What the assumed ones do to the levels: \
          <code>brinell run --spread</code>; how far to trust a number: <code>docs/src/trust.md</code>.</p>",
-        report.assumptions.len()
+        all.len()
     );
-    let part = |estimated: bool| report.assumptions.iter().filter(move |a| a.assumed == estimated);
+    let part = |estimated: bool| all.iter().filter(move |a| a.assumed == estimated);
     if estimated > 0 {
         values(page, part(true));
     }
-    if estimated < report.assumptions.len() {
-        let _ = writeln!(page, "<details><summary>{} stated values</summary>", report.assumptions.len() - estimated);
+    if estimated < all.len() {
+        let _ = writeln!(page, "<details><summary>{} stated values</summary>", all.len() - estimated);
         values(page, part(false));
         page.push_str("</details>\n");
     }

@@ -2,9 +2,17 @@
 
 use brinell::signal::kurtogram::Level;
 use brinell_report::{
-    AnalysisReport, Fact, Kurtogram, Layout, Marker, Series, Spectrum, Table, Tone, analysis_html, analysis_pictures,
+    AnalysisReport, Fact, Kurtogram, Layout, Marker, Picture, Series, Spectrum, Table, Tone, html, pictures,
 };
 use proptest::prelude::*;
+
+fn analysis_html(report: &AnalysisReport) -> String {
+    html(&report.clone().into())
+}
+
+fn analysis_pictures(report: &AnalysisReport, layout: Layout) -> Vec<Picture> {
+    pictures(&report.clone().into(), layout)
+}
 
 const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
 

@@ -65,13 +65,13 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
     let json = found.to_json(true);
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
-        let report = page::report(&found);
+        let page = page::report(&found).into();
         written = put_pages(
             folder,
             &args.plots,
             &json,
-            &brinell_report::analysis_html(&report),
-            &brinell_report::analysis_pictures(&report, args.print.layout(&args.plots)?),
+            &brinell_report::html(&page),
+            &brinell_report::pictures(&page, args.print.layout(&args.plots)?),
             &earlier,
         )?;
     }

@@ -12,8 +12,7 @@ use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_measured::{Diagnosis, Findings, Measurement, Request, Short, examine, is_too_short};
 use brinell_report::{
-    Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, ZONES, scaled, study_html,
-    study_pictures,
+    Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Page, Piece, Table, ZONES, html, pictures, scaled,
 };
 use brinell_study::campaign::of_results;
 use serde_json::{Value, json};
@@ -302,8 +301,8 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
             folder,
             &args.plots,
             &json,
-            &study_html(&report),
-            &study_pictures(&report, args.print.layout(&args.plots)?),
+            &html(&report),
+            &pictures(&report, args.print.layout(&args.plots)?),
             earlier,
         )?;
     }
@@ -323,7 +322,7 @@ const TREND: &str = "In the order of the table; numbers on the axis are those of
     harmonics rise over the noise; the verdict also takes how deep they modulate the envelope, and leaves out lines that \
     another part's damage accounts for: a high score alone is no damage.";
 
-fn report(args: &AnalyzeArgs, rows: &[Row]) -> Study {
+fn report(args: &AnalyzeArgs, rows: &[Row]) -> Page {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
@@ -346,8 +345,8 @@ fn report(args: &AnalyzeArgs, rows: &[Row]) -> Study {
         sentences.map(|sentence| vec![row.name.clone(), sentence.clone()])
     });
     let verdicts = Table::new("Verdicts", ["File", "Verdict"], verdicts, "");
-    let mut trend = vec![StudyPiece::Note(TREND.into())];
-    trend.extend(plots(rows).into_iter().map(StudyPiece::Trend));
+    let mut trend = vec![Piece::Note(TREND.into())];
+    trend.extend(plots(rows).into_iter().map(Piece::Trend));
     let leading = leading(args, rows);
     let what = if leading.is_some() { "signals" } else { "files" };
     let mut subtitle = format!("{} {what}, damage called in {damaged}, no result from {}", rows.len(), failures.len());
@@ -358,14 +357,14 @@ fn report(args: &AnalyzeArgs, rows: &[Row]) -> Study {
     }
     chapters.extend(Chapter::failures("Files without a result", "File", failures));
     chapters.push(Chapter::new("trend", "Trend", "Trend", trend));
-    Study {
+    Page {
         title: if rows.len() == 1 { "A signal too short for a verdict" } else { "Several signals" }.into(),
         subtitle,
         analysed: true,
         version: brinell::VERSION.into(),
         warnings: warnings(rows),
         chapters,
-        ..Study::default()
+        ..Page::default()
     }
 }
 

@@ -13,7 +13,7 @@ use crate::stop::stop_flag;
 use crate::sweep::duration;
 pub(crate) use args::CalibrateArgs;
 use brinell::simulate::Simulation;
-use brinell_report::{Study, calibration_undetermined, calibration_verdict, digits_beside, interval_text};
+use brinell_report::{Page, calibration_undetermined, calibration_verdict, digits_beside, interval_text};
 use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
     CalibrateError, FitPlan, Key, Load, Outcome, Points, Settings, Target, Unfinished, Unfit, bounds, check_keys,
@@ -103,7 +103,7 @@ fn write(outcome: &Outcome, json: &Value, folder: &Path) -> Result<Vec<PathBuf>,
     let mut written = vec![outcome.table().write_csv(folder.join("calibrate.csv"))?];
     put(folder, "calibrate.json", &pretty(json), &mut written)?;
     put(folder, "best.toml", &outcome.best.to_toml(), &mut written)?;
-    let page = brinell_report::study_html(&Study::of_outcome(outcome));
+    let page = brinell_report::html(&Page::of_outcome(outcome));
     put(folder, "calibrate.html", &page, &mut written)?;
     Ok(written)
 }

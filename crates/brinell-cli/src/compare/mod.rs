@@ -15,7 +15,7 @@ pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
-use brinell_report::Study;
+use brinell_report::Page;
 use brinell_study::campaign::{self, Compared, Level, Side, run_all, sides_json, sides_scenarios, sides_table};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -71,16 +71,16 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     if let Some(survives) = &survives {
         json.1["spread"] = spread::json(sides, survives);
     }
-    let report = Study::of_runs(sides, &all, &compared, warnings);
+    let report = Page::of_runs(sides, &all, &compared, warnings);
     let table = sides_table(sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
     let pictures = match &args.plots[..] {
         [] => Vec::new(),
-        _ => brinell_report::study_pictures(&report, layout),
+        _ => brinell_report::pictures(&report, layout),
     };
-    let page = brinell_report::study_html(&report);
+    let page = brinell_report::html(&report);
     let (written, json) = earlier.publish(ready, json, Some((PAGE, &page)), (&pictures, &args.plots))?;
     if args.json {
         document(json.trim_end());

@@ -4,7 +4,7 @@ use super::args::SheetArgs;
 use crate::failure::Failure;
 use crate::say::{plural, say};
 use brinell_io::atomic_write;
-use brinell_report::sheet_html;
+use brinell_report::{Page, html};
 use brinell_study::dataset::sheet;
 use std::process::ExitCode;
 
@@ -14,9 +14,9 @@ const FILE: &str = "sheet.html";
 pub(super) fn draw(args: &SheetArgs) -> Result<ExitCode, Failure> {
     let found = sheet(&args.folder, args.runs.get())?;
     let path = args.folder.join(FILE);
-    atomic_write(&path, sheet_html(&found))?;
+    let shown = found.classes.iter().map(|class| class.shown.len()).sum();
+    atomic_write(&path, html(&Page::of_sheet(found)))?;
     if !args.quiet {
-        let shown = found.classes.iter().map(|class| class.shown.len()).sum();
         say!("{}: {}", path.display(), plural(shown, "run"));
     }
     Ok(ExitCode::SUCCESS)

@@ -191,11 +191,11 @@ fn write(
     });
     written.push(write_page(&study, folder)?);
     if !args.plots.is_empty() {
-        let pictures = brinell_report::study_pictures(&study, layout);
+        let pictures = brinell_report::pictures(&study, layout);
         write_plots(&pictures, &args.plots, folder, &mut written)?;
     }
     if let Some(book) = &args.book {
-        let pictures = brinell_report::study_pictures(&study, Layout::Wide);
+        let pictures = brinell_report::pictures(&study, Layout::Wide);
         written.extend(reproduction.write_book(&study, &pictures, book)?);
     }
     Ok(written)

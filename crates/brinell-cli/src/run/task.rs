@@ -18,8 +18,7 @@ use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary;
 use brinell_damage::Photo;
 use brinell_io::{Format, atomic_prepare, run_table};
-use brinell_report::Report;
-use brinell_study::campaign::Spread;
+use brinell_report::Page;
 use brinell_study::runner::{Make, Recorder, forecast};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -155,7 +154,8 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
         beforehand,
         healthy: healthy.as_ref(),
     };
-    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos, spread.as_ref()));
+    let report = (!args.no_report || !args.plots.is_empty())
+        .then(|| Page::of_run(&parts, photos, spread.as_ref().map(|spread| &*spread.levels)));
     let pictures = match &report {
         Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
         _ => Vec::new(),
@@ -169,15 +169,6 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
     let (written, summary) = earlier.publish(ready, json, page, (&pictures, &args.plots))?;
     let printed = tell(&parts, elapsed, spread.as_ref(), &written);
     Ok(Done { printed, end: outcome.end, interrupted, summary })
-}
-
-fn report(parts: &Parts, photos: &[Option<Photo>], spread: Option<&Spread>) -> Report {
-    let mut report = Report::of_run(parts);
-    report.spread = spread.map(|spread| spread.levels.clone());
-    for (view, photo) in report.damage.iter_mut().zip(photos) {
-        view.photo = photo.clone();
-    }
-    report
 }
 
 /// Begins the files of signals.

@@ -270,10 +270,10 @@ fn write(
     }
     put(folder, "sweep.json", &pretty(&json), &mut written)?;
     let report = page::report(points, states, plots, warnings);
-    put(folder, "sweep.html", &brinell_report::study_html(&report), &mut written)?;
+    put(folder, "sweep.html", &brinell_report::html(&report), &mut written)?;
     if !args.plots.is_empty() {
         let layout = args.print.layout(&args.plots)?;
-        let pictures = brinell_report::study_pictures(&report, layout);
+        let pictures = brinell_report::pictures(&report, layout);
         for file in ready_pictures(&pictures, &args.plots, folder)? {
             written.push(file.publish()?);
         }

@@ -6,8 +6,8 @@ use crate::say::{plural, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{
-    Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, sweep_lead,
-    sweep_legend, value_text, words,
+    Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Page, Piece, Table, sweep_lead, sweep_legend,
+    value_text, words,
 };
 use brinell_study::campaign::Axis;
 use brinell_study::runner::State;
@@ -36,7 +36,7 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     usual
 }
 
-pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnings: Vec<String>) -> Study {
+pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnings: Vec<String>) -> Page {
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
     let axes: Vec<String> = points.read.grid.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
     let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
@@ -57,7 +57,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnin
     let drawn: Vec<IndicatorPlot> = plots.iter().flat_map(|name| pictures(points, states, name)).collect();
     let incomplete =
         format!("This sweep is incomplete. {} not run yet; the same command resumes.", plural(missing, "point"));
-    Study {
+    Page {
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
         version: brinell::VERSION.into(),
@@ -66,7 +66,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnin
         facts,
         chapters: chapters(points, states, plots, drawn),
         footer: "The whole table, with every indicator, is in sweep.csv and sweep.parquet beside this page.".into(),
-        ..Study::default()
+        ..Page::default()
     }
 }
 
@@ -78,10 +78,9 @@ fn chapters(points: &Points, states: &[State], plots: &[String], drawn: Vec<Indi
     };
     let failures = states.iter().enumerate();
     let failures = failures.filter_map(|(k, s)| Some((name(k), s.failure()?.to_owned())));
-    let maps: Vec<StudyPiece> =
-        plots.iter().filter_map(|name| map(points, states, name)).map(StudyPiece::Map).collect();
-    let mut indicators = vec![StudyPiece::Note(sweep_legend(&drawn))];
-    indicators.extend(drawn.into_iter().map(StudyPiece::Trend));
+    let maps: Vec<Piece> = plots.iter().filter_map(|name| map(points, states, name)).map(Piece::Map).collect();
+    let mut indicators = vec![Piece::Note(sweep_legend(&drawn))];
+    indicators.extend(drawn.into_iter().map(Piece::Trend));
     let mut chapters = Vec::new();
     if !maps.is_empty() {
         chapters.push(Chapter::new("maps", "Over both keys", "Over both keys", maps));
@@ -89,7 +88,7 @@ fn chapters(points: &Points, states: &[State], plots: &[String], drawn: Vec<Indi
     chapters.push(Chapter::new("indicators", "Indicators", "Indicators", indicators));
     chapters.extend(Chapter::failures("Points that failed", "Point", failures.take(LISTED).collect()));
     chapters.push(Chapter::table("points", "Points", table(points, states, plots)));
-    let base = vec![StudyPiece::Code(points.source.text())];
+    let base = vec![Piece::Code(points.source.text())];
     chapters.push(Chapter::new("scenario", "Base scenario", "Base scenario", base));
     chapters
 }

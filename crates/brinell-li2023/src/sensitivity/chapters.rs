@@ -3,7 +3,7 @@
 use super::{BEST, Candidate, SEED, Sensitivity, Tried};
 use crate::{Length, RANGES, READ_AS, RECORDS, RMS, SEARCHED, Values, Verdict, claims};
 use brinell_report::short;
-use brinell_report::{Chapter, StudyPiece, Table};
+use brinell_report::{Chapter, Piece, Table};
 use serde_json::{Value, json};
 
 impl Sensitivity {
@@ -44,10 +44,10 @@ impl Sensitivity {
     /// The page's chapters.
     pub(crate) fn chapters(&self) -> Vec<Chapter> {
         let pieces = vec![
-            StudyPiece::Words(intro(self.length)),
-            StudyPiece::Table(self.three_rms()),
-            StudyPiece::Table(self.legend()),
-            StudyPiece::Table(self.matrix()),
+            Piece::Words(intro(self.length)),
+            Piece::Table(self.three_rms()),
+            Piece::Table(self.legend()),
+            Piece::Table(self.matrix()),
         ];
         vec![
             Chapter::new("sensitivity", "Sensitivity", "What the claims depend on", pieces),
@@ -78,7 +78,7 @@ impl Sensitivity {
         )
     }
 
-    fn search(&self) -> Vec<StudyPiece> {
+    fn search(&self) -> Vec<Piece> {
         let words = format!(
             "{} sets of assumptions, looked for as `brinell calibrate` does (a Latin hypercube over the ranges below, a swarm, then downhill; \
              seed {SEED}) to meet the paper's three RMS values, its defect frequency and the statements about three cases: the full model with \
@@ -89,11 +89,11 @@ impl Sensitivity {
             self.drawn
         );
         vec![
-            StudyPiece::Words(words),
-            StudyPiece::Words(self.found()),
-            StudyPiece::Table(self.by_record()),
-            StudyPiece::Table(self.best_sets()),
-            StudyPiece::Table(ranges()),
+            Piece::Words(words),
+            Piece::Words(self.found()),
+            Piece::Table(self.by_record()),
+            Piece::Table(self.best_sets()),
+            Piece::Table(ranges()),
         ]
     }
 

@@ -13,7 +13,6 @@ use crate::kurtogram::Kurtogram;
 use crate::tables::Table;
 pub use content::{Analyzed, Findings};
 pub use level::{ZONES, level_lines, scaled};
-pub use page::{analysis_html, analysis_pictures};
 pub use words::{called, orders_in_hz, ratio};
 
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.

@@ -1,6 +1,6 @@
-//! The page itself, and its pictures.
+//! The page of an analysis: its chapters.
 
-use std::fmt::Write as _;
+use std::sync::Arc;
 
 use super::AnalysisReport;
 use super::curves::plot;
@@ -8,13 +8,12 @@ use super::waveform::{close, whole};
 use crate::chart::{Domain, Lane, Size};
 use crate::data::Spectrum;
 use crate::embedded::Plot;
-use crate::frame::{THINNED, close as finish, figure, open, plain, plot as plot_of, section};
+use crate::frame::THINNED;
 use crate::kurtogram::kurtogram;
 use crate::layout::Layout;
 use crate::markup::escape;
-use crate::picture::Picture;
+use crate::page::{Chapter, Figure, Page, Piece};
 use crate::plots::{marker_lanes, spectrum_spec};
-use crate::tables::{facts, table};
 
 fn end(spectra: &[Spectrum]) -> f64 {
     (spectra.iter()).map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64).fold(0.0, f64::max)
@@ -58,57 +57,42 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
     plot
 }
 
-/// The page's pictures, for saving as files.
-pub fn analysis_pictures(report: &AnalysisReport, layout: Layout) -> Vec<Picture> {
-    let mut pictures = [whole, close, spectrum].map(|draw| draw(report, layout).picture()).to_vec();
-    pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, layout)));
-    pictures.push(envelope(report, layout).picture());
-    layout.finished(pictures)
-}
-
-/// The self-contained page.
-pub fn analysis_html(report: &AnalysisReport) -> String {
-    let mut page = open(&report.title, &report.subtitle, ("Analysed", &report.version), plain(&report.warnings));
-    page.push_str("<main>\n");
-    section(&mut page, "verdict", "Verdict", |page| verdict(page, report));
-    section(&mut page, "waveform", "Waveform", |page| {
-        figure(page, "whole", |layout| whole(report, layout).picture(), "");
-        plot_of(
-            page,
-            "close",
-            |layout| close(report, layout),
-            "A stretch from the middle, about ten periods of the strongest defect frequency long.",
-        );
-    });
-    let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
-    section(&mut page, "spectrum", "Spectrum", |page| {
-        plot_of(page, "spectrum", |layout| spectrum(report, layout), &note(&report.spectra));
-    });
-    if let Some(map) = &report.kurtogram {
-        section(&mut page, "kurtogram", "Kurtogram", |page| {
-            let draw = |layout| kurtogram(map, layout);
-            figure(page, "kurtogram", draw, &escape(&map.note));
-        });
-    }
-    section(&mut page, "envelope", "Envelope spectrum", |page| {
-        plot_of(page, "envelope", |layout| envelope(report, layout), &note(&report.envelopes));
-    });
-    for one in &report.tables {
-        table(&mut page, one);
-    }
-    section(&mut page, "given", "What was given", |page| {
-        page.push_str("<ul>\n");
-        for note in &report.notes {
-            let _ = writeln!(page, "<li>{}</li>", escape(note));
+impl From<AnalysisReport> for Page {
+    fn from(mut report: AnalysisReport) -> Self {
+        let tables = std::mem::take(&mut report.tables);
+        let r = Arc::new(report);
+        let verdict = vec![Piece::Verdict(r.tone, r.verdict.clone()), Piece::Headline(r.facts.clone())];
+        let whole = Figure::still("whole", "", &r, |r, layout| whole(r, layout).picture());
+        let middle = "A stretch from the middle, about ten periods of the strongest defect frequency long.";
+        let waveform = vec![Piece::Figure(whole), Piece::Figure(Figure::plot("close", middle, &r, close))];
+        let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
+        let plot = |id, spectra: &[Spectrum], draw| Piece::Figure(Figure::plot(id, note(spectra), &r, draw));
+        let mut chapters = vec![
+            Chapter::new("verdict", "Verdict", "Verdict", verdict),
+            Chapter::new("waveform", "Waveform", "Waveform", waveform),
+            Chapter::of("spectrum", "Spectrum", plot("spectrum", &r.spectra, spectrum)),
+        ];
+        if let Some(map) = r.kurtogram.clone() {
+            let caption = escape(&map.note);
+            let map = Figure::still("kurtogram", caption, &Arc::new(map), kurtogram);
+            chapters.push(Chapter::of("kurtogram", "Kurtogram", Piece::Figure(map)));
         }
-        page.push_str("</ul>\n");
-    });
-    finish(page, THINNED, &[])
-}
-
-fn verdict(page: &mut String, report: &AnalysisReport) {
-    let class = report.tone.class();
-    let verdict = escape(&report.verdict);
-    let _ = writeln!(page, "<p class=\"verdict {class}\">{verdict}</p>");
-    facts(page, &report.facts);
+        chapters.push(Chapter::of("envelope", "Envelope spectrum", plot("envelope", &r.envelopes, envelope)));
+        for table in tables {
+            let id = format!("table-{}", table.title.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "-"));
+            let short = table.title.clone();
+            chapters.push(Chapter::table(&id, &short, table));
+        }
+        chapters.push(Chapter::of("given", "What was given", Piece::List(r.notes.clone())));
+        Self {
+            title: r.title.clone(),
+            subtitle: r.subtitle.clone(),
+            analysed: true,
+            version: r.version.clone(),
+            warnings: r.warnings.clone(),
+            chapters,
+            footer: THINNED.into(),
+            ..Self::default()
+        }
+    }
 }

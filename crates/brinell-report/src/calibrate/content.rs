@@ -4,13 +4,13 @@ use super::words::{calibration_undetermined, calibration_verdict, interval_text}
 use crate::fact::Fact;
 use crate::misfit::Tried;
 use crate::number::{digits_beside, plural, short};
-use crate::study::{Chapter, Study, StudyPiece};
+use crate::page::{Chapter, Page, Piece};
 use crate::tables::Table;
 use brinell_study::calibrate::identify::Direction;
 use brinell_study::calibrate::search::STEP;
 use brinell_study::calibrate::{Evaluation, Met, Outcome};
 
-impl Study {
+impl Page {
     /// What the page of a calibration shows: `calibrate.html` of `brinell calibrate`.
     pub fn of_outcome(of: &Outcome) -> Self {
         let all = &of.fit.evaluations;
@@ -58,10 +58,10 @@ impl Study {
 fn chapters(of: &Outcome, failed: Vec<(String, String)>) -> Vec<Chapter> {
     let found = of.found.iter().map(|f| Fact::new(&f.key.name, short(f.best, 5), f.unit, interval_text(f)));
     let mut outcome = sentences(calibration_verdict(of));
-    outcome.push(StudyPiece::Facts(found.collect()));
-    let mut misfits = vec![StudyPiece::Note(MISFITS.into())];
-    misfits.extend((0..of.found.len()).map(|k| StudyPiece::Misfit(of.found[k].clone(), tried(of, k))));
-    let course = StudyPiece::Course(of.fit.evaluations.iter().map(|e| e.chi_square).collect());
+    outcome.push(Piece::Facts(found.collect()));
+    let mut misfits = vec![Piece::Note(MISFITS.into())];
+    misfits.extend((0..of.found.len()).map(|k| Piece::Misfit(of.found[k].clone(), tried(of, k))));
+    let course = Piece::Course(of.fit.evaluations.iter().map(|e| e.chi_square).collect());
     let undetermined = "What the data do not determine";
     let mut chapters = vec![
         Chapter::new("outcome", "Outcome", "Outcome", outcome),
@@ -76,7 +76,7 @@ fn chapters(of: &Outcome, failed: Vec<(String, String)>) -> Vec<Chapter> {
     }
     chapters.extend(Chapter::failures("Runs that failed", "Run", failed));
     chapters.push(Chapter::new("method", "Method", "Method", sentences(method(of))));
-    let scenario = vec![StudyPiece::Code(of.best.to_toml())];
+    let scenario = vec![Piece::Code(of.best.to_toml())];
     chapters.push(Chapter::new("scenario", "Best scenario", "Best scenario", scenario));
     chapters
 }
@@ -86,8 +86,8 @@ const MISFITS: &str = "Dots: all runs, whatever the other keys. Filled: runs tha
     joined. Shaded: the 95 % interval, where the data determine the key. Upright line: the best value. A floor without a \
     hollow is a key that the data leave open.";
 
-fn sentences(all: Vec<String>) -> Vec<StudyPiece> {
-    all.into_iter().map(StudyPiece::Words).collect()
+fn sentences(all: Vec<String>) -> Vec<Piece> {
+    all.into_iter().map(Piece::Words).collect()
 }
 
 /// The runs over the key with this index.

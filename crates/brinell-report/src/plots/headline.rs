@@ -3,7 +3,7 @@
 use super::spectrum::envelope_of_size;
 use super::waveform::waveform_of_size;
 use crate::chart::{Size, left_margin, right_margin};
-use crate::data::Report;
+use crate::data::Signals;
 use crate::font;
 use crate::layout::Layout;
 use crate::picture::{Anchor, Picture, Text, ink};
@@ -17,7 +17,7 @@ struct Plan {
     chart: Size,
     /// Where the first chart begins.
     top: f64,
-    /// Whether the report's subtitle has a line of its own.
+    /// Whether the run's subtitle has a line of its own.
     below: bool,
 }
 
@@ -40,15 +40,15 @@ impl Plan {
     }
 }
 
-/// Waveform over envelope spectrum under the report's title: the run in one picture.
-pub fn headline(report: &Report, layout: Layout) -> Picture {
+/// Waveform over envelope spectrum under the run's title: the run in one picture.
+pub fn headline(run: &Signals, layout: Layout) -> Picture {
     let plan = Plan::of(layout);
     let Plan { width, chart, .. } = plan;
     let [large, small] = plan.type_sizes;
     let height = plan.top + 2.0 * chart.height + 2.0;
-    let mut picture = Picture::new("headline", &report.title, width, height);
-    let mut upper = waveform_of_size(report, chart);
-    let mut lower = envelope_of_size(report, chart);
+    let mut picture = Picture::new("headline", &run.title, width, height);
+    let mut upper = waveform_of_size(run, chart);
+    let mut lower = envelope_of_size(run, chart);
     if lower.spec.lanes.iter().any(|lane| lane.through) {
         lower.spec.lanes.retain(|lane| lane.through);
     }
@@ -61,7 +61,7 @@ pub fn headline(report: &Report, layout: Layout) -> Picture {
         true => (width - 16.0, 8.0),
         false => (0.45 * width, left),
     };
-    let title = font::fitted(&report.title, large, true, title_room);
+    let title = font::fitted(&run.title, large, true, title_room);
     let first = 1.5 * large;
     let (beside, second) = match plan.below {
         true => (start, first + 1.4 * small),
@@ -71,7 +71,7 @@ pub fn headline(report: &Report, layout: Layout) -> Picture {
         true => width - 16.0,
         false => width - beside - 26.0,
     };
-    let subtitle = font::fitted(&report.subtitle, small, false, room);
+    let subtitle = font::fitted(&run.subtitle, small, false, room);
     picture.text(Text::new(start, first, large, Anchor::Start, &title).bold().color(ink::BLACK));
     picture.text(Text::new(beside, second, small, Anchor::Start, &subtitle));
     picture.place(upper.picture(), 0.0, plan.top);

@@ -3,7 +3,7 @@
 use super::healthy::over_healthy;
 use super::markers::{marker_lanes, order_lanes, telling};
 use crate::chart::{Domain, Lane, Size, Spec, range};
-use crate::data::{Along, Marker, Report, Spectrum};
+use crate::data::{Along, Marker, Signals, Spectrum};
 use crate::embedded::Plot;
 use crate::layout::{Layout, known, spacing};
 
@@ -19,12 +19,12 @@ fn top(spectrum: &Spectrum, markers: &[Marker]) -> f64 {
 }
 
 /// The whole amplitude spectrum over decades.
-pub(crate) fn spectrum(report: &Report, layout: Layout) -> Plot<'_> {
+pub(crate) fn spectrum(run: &Signals, layout: Layout) -> Plot<'_> {
     let size = layout.size(if layout.roomy() { 320.0 } else { 270.0 });
-    let (spectrum, healthy) = (&report.spectrum, &report.healthy.spectrum);
+    let (spectrum, healthy) = (&run.spectrum, &run.healthy.spectrum);
     let all: Vec<f64> = spectrum.amplitude.iter().chain(healthy).copied().collect();
     let spec = spectrum_spec(("spectrum", "Spectrum"), spectrum, size, end(spectrum), Domain::decades(&all), vec![]);
-    Plot { velocity: true, toggles: marker_lanes(&report.markers), ..lines(spec, "spectrum", spectrum, healthy) }
+    Plot { velocity: true, toggles: marker_lanes(&run.markers), ..lines(spec, "spectrum", spectrum, healthy) }
 }
 
 fn envelope_size(layout: Layout) -> Size {
@@ -32,20 +32,20 @@ fn envelope_size(layout: Layout) -> Size {
 }
 
 /// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
-pub(crate) fn envelope_spectrum(report: &Report, layout: Layout) -> Plot<'_> {
-    envelope_of_size(report, envelope_size(layout))
+pub(crate) fn envelope_spectrum(run: &Signals, layout: Layout) -> Plot<'_> {
+    envelope_of_size(run, envelope_size(layout))
 }
 
-pub(super) fn envelope_of_size(report: &Report, size: Size) -> Plot<'_> {
-    let both = (&report.envelope_spectrum, &report.healthy.envelope_spectrum[..]);
+pub(super) fn envelope_of_size(run: &Signals, size: Size) -> Plot<'_> {
+    let both = (&run.envelope_spectrum, &run.healthy.envelope_spectrum[..]);
     let names = ("envelope-spectrum", "Envelope spectrum");
-    marked(names, "envelope", size, both, &report.markers, marker_lanes(&report.markers))
+    marked(names, "envelope", size, both, &run.markers, marker_lanes(&run.markers))
 }
 
 /// The envelope over orders of the shaft, with the bearing's orders marked.
-pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Plot<'_> {
-    let both = (&report.envelope_orders, &report.healthy.envelope_orders[..]);
-    let (names, markers) = (("envelope-orders", "Envelope orders"), &report.order_markers);
+pub(crate) fn order_spectrum(run: &Signals, layout: Layout) -> Plot<'_> {
+    let both = (&run.envelope_orders, &run.healthy.envelope_orders[..]);
+    let (names, markers) = (("envelope-orders", "Envelope orders"), &run.order_markers);
     let plot = marked(names, "orders", envelope_size(layout), both, markers, order_lanes(markers));
     let spec = Spec { x_label: "Order of the shaft".into(), x_unit: String::new(), ..plot.spec };
     Plot { spec, called: ["Order", ""], ..plot }

@@ -3,7 +3,7 @@
 use super::healthy::over_healthy;
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
-use crate::data::{Along, MinMax, Report, Series};
+use crate::data::{Along, MinMax, Series, Signals};
 use crate::embedded::Plot;
 use crate::layout::{Layout, known, spacing, start, time_unit};
 use crate::number::significant;
@@ -17,10 +17,10 @@ fn span(series: &Series) -> (f64, f64) {
 
 /// Start and end in seconds of the waveform shown close up: the last five periods of the quickest damage in the
 /// bearing.
-pub fn detail_window(report: &Report) -> (f64, f64) {
-    let series = &report.waveform.series;
+pub fn detail_window(run: &Signals) -> (f64, f64) {
+    let series = &run.waveform.series;
     let (first, last) = span(series);
-    let quickest = telling(&report.markers).iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
+    let quickest = telling(&run.markers).iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
     let wanted = if quickest > 0.0 { 5.0 / quickest } else { 0.02 };
     let width = wanted.max(32.0 * spacing(series.dt_s));
     ((last - width).max(first), last)
@@ -46,15 +46,15 @@ fn settled_domain(min: &[f64], max: &[f64]) -> (Domain, Option<(f64, f64)>) {
 }
 
 /// The bins that the overview shows: of the whole run, or else a bin a sample.
-fn bins(report: &Report) -> Cow<'_, MinMax> {
-    let series = &report.waveform.series;
+fn bins(run: &Signals) -> Cow<'_, MinMax> {
+    let series = &run.waveform.series;
     let a_sample_each = || MinMax {
         t0_s: start(series.t0_s) - 0.5 * spacing(series.dt_s),
         dt_s: series.dt_s,
         min: series.values.clone(),
         max: series.values.clone(),
     };
-    report.waveform.overview.as_ref().map_or_else(|| Cow::Owned(a_sample_each()), Cow::Borrowed)
+    run.waveform.overview.as_ref().map_or_else(|| Cow::Owned(a_sample_each()), Cow::Borrowed)
 }
 
 /// Start and end of bins, s.
@@ -64,8 +64,8 @@ fn ends(bins: &MinMax) -> (f64, f64) {
 }
 
 /// The whole run, the smallest and largest value of each stretch; the close-up's window is shaded.
-pub fn overview(report: &Report, layout: Layout) -> Picture {
-    let (series, bins) = (&report.waveform.series, bins(report));
+pub fn overview(run: &Signals, layout: Layout) -> Picture {
+    let (series, bins) = (&run.waveform.series, bins(run));
     let (dt, count) = (spacing(bins.dt_s), bins.min.len().min(bins.max.len()));
     let (t0, end) = ends(&bins);
     let (unit, scale) = time_unit(end - t0);
@@ -88,14 +88,14 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
         let (low, high) = (&bins.min[..count], &bins.max[..count]);
         let paint = Paint::line(ink::BLUE, 0.6).filled(ink::BLUE, 0.75);
         chart.band(t0 * scale, dt * scale, low, high, paint);
-        let (lo, hi) = detail_window(report);
+        let (lo, hi) = detail_window(run);
         chart.highlight(lo * scale, hi * scale);
     }
     chart.interactive("overview");
     chart.finish()
 }
 
-fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
+fn event_lanes(run: &Signals, scale: f64) -> Vec<Lane> {
     let lane = |enters: bool, label: &str, color, dash: &'static [f64]| Lane {
         label: label.into(),
         value: String::new(),
@@ -103,7 +103,7 @@ fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
         dash,
         through: true,
         marks: {
-            let mut marks: Vec<Mark> = report
+            let mut marks: Vec<Mark> = run
                 .waveform
                 .events
                 .iter()
@@ -126,19 +126,19 @@ fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
 }
 
 /// The sensor signal close up, with the instants at which rollers enter and leave defects.
-pub(crate) fn waveform(report: &Report, layout: Layout) -> Plot<'_> {
-    waveform_of_size(report, layout.size(if layout.roomy() { 340.0 } else { 300.0 }))
+pub(crate) fn waveform(run: &Signals, layout: Layout) -> Plot<'_> {
+    waveform_of_size(run, layout.size(if layout.roomy() { 340.0 } else { 300.0 }))
 }
 
-pub(super) fn waveform_of_size(report: &Report, size: Size) -> Plot<'_> {
-    let (series, healthy) = (&report.waveform.series, &report.healthy.waveform);
-    let (lo, hi) = detail_window(report);
+pub(super) fn waveform_of_size(run: &Signals, size: Size) -> Plot<'_> {
+    let (series, healthy) = (&run.waveform.series, &run.healthy.waveform);
+    let (lo, hi) = detail_window(run);
     let (unit, scale) = time_unit(hi - lo);
     let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
     let first = (((lo - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
     let y = Domain::around(series.values[first..].iter().chain(healthy.iter().skip(first)).copied());
     let spec = Spec {
-        lanes: event_lanes(report, scale),
+        lanes: event_lanes(run, scale),
         ..Spec::new(
             "waveform",
             format!("Waveform: {}", series.label),
@@ -153,7 +153,7 @@ pub(super) fn waveform_of_size(report: &Report, size: Size) -> Plot<'_> {
         Some(_) => "",
     };
     let along = Along::Even { first: t0 * scale, step: dt * scale };
-    let (from, to) = ends(&bins(report));
+    let (from, to) = ends(&bins(run));
     Plot {
         called: ["", "Acceleration"],
         overview_scale: scale / time_unit(to - from).1,

@@ -1,4 +1,4 @@
-//! Of the report's data, the contacts: a roller's pass over a defect, and forces around the bearing.
+//! Of a run's page, the contacts: a roller's pass over a defect, and forces around the bearing.
 
 use crate::RowLoad;
 use brinell::channel::stiffness_unit;

@@ -1,4 +1,4 @@
-//! Of the report's data, the same bearing without its damage.
+//! Of a run's page, the same bearing without its damage.
 
 use super::orders;
 use crate::Healthy;

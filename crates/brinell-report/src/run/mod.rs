@@ -1,5 +1,6 @@
-//! From a run's results to the report's data: names, units and notes for people.
+//! From a run's results to its page: names, units and notes for people.
 
+pub mod chapters;
 mod contacts;
 mod healthy;
 mod lead;
@@ -9,65 +10,88 @@ mod sensor;
 mod signals;
 mod tables;
 
-use crate::Report;
+use crate::data::Signals;
+use crate::frame::THINNED;
 use crate::number::short;
+use crate::page::Page;
 use brinell::result::Parts;
 use brinell::scenario::{ModelKind, Scenario, Speed};
 use brinell::simulate::End;
+use brinell_damage::Photo;
+use brinell_study::campaign::Level;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;
 pub(crate) use signals::found_markers;
 use signals::{envelope_spectrum, indicators, sensor_label, spectrum, waveform};
+use std::sync::Arc;
 use tables::{audits, facts, slip, solver_work};
 
-impl Report {
-    /// What the page of a run shows: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the
-    /// page says why.
-    pub fn of_run(parts: &Parts) -> Self {
+impl Page {
+    /// The page of a run: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the page says why.
+    /// `photos` belong to the defects in their order; `spread` says what assumed values do to the levels.
+    pub fn of_run(parts: &Parts, photos: &[Option<Photo>], spread: Option<&[Level]>) -> Self {
         let scenario = &parts.loaded.scenario;
-        let (damage, undrawn_damage) = match crate::defects::damage_of(scenario, None) {
-            Ok(all) => (all, None),
-            Err(error) => (Vec::new(), Some(error.to_string())),
-        };
-        let (envelope_orders, order_markers) = orders::orders(parts, parts.findings);
+        let damage = crate::defects::damage_of(scenario, None).map_err(|error| error.to_string());
+        let lead = lead::lead(parts, damage.as_deref().unwrap_or_default());
+        let mut views = damage.map(|all| all.into_iter().map(|d| d.view).collect::<Vec<_>>());
+        for (view, photo) in views.iter_mut().flatten().zip(photos) {
+            view.photo.clone_from(photo);
+        }
+        let signals = Arc::new(of_signals(parts));
+        let mut all = chapters::signals(&signals);
+        all.push(chapters::spectrogram(spectrogram(parts, sensor_label(parts))));
+        all.extend(chapters::sensor(sensor::view(parts)));
+        let passes = parts.findings.passes.best();
+        all.extend([
+            chapters::damage(views),
+            chapters::passes(passes.iter().map(|p| pass(parts, p)).collect()),
+            chapters::load(load_distribution(parts), crate::defects::along_roller(scenario)),
+            chapters::motion(motion(parts)),
+            chapters::orbit(cage_orbits(parts)),
+            chapters::indicators(&indicators(parts)),
+            chapters::slip(&slip(parts), slip_rows(parts)),
+        ]);
+        all.extend(spread.map(chapters::spread));
+        all.push(chapters::assumptions(&parts.loaded.provenance));
+        all.extend(chapters::appendices(&audits(parts), &solver_work(parts), &parts.loaded.to_toml()));
+        all.push(chapters::headline(&signals));
         Self {
-            title: scenario.name.clone(),
+            title: if scenario.name.is_empty() { "Bearing vibration".into() } else { scenario.name.clone() },
             subtitle: subtitle(scenario),
-            lead: lead::lead(parts, &damage),
             version: brinell::VERSION.to_owned(),
             partial: match &parts.outcome.end {
                 End::Complete => None,
                 End::Stopped => Some("the run was stopped before its duration".into()),
                 End::Failed(error) => Some(error.to_string()),
             },
+            lead,
             warnings: parts.warnings(),
             facts: facts(parts),
-            healthy: healthy::healthy(parts, &envelope_orders),
-            waveform: waveform(parts),
-            spectrum: spectrum(parts),
-            spectrogram: spectrogram(parts, sensor_label(parts)),
-            envelope_spectrum: envelope_spectrum(parts),
-            envelope_orders,
-            order_markers,
-            markers: found_markers(scenario, parts.simulation.model(), &parts.findings.lines),
-            damage: damage.into_iter().map(|d| d.view).collect(),
-            undrawn_damage,
-            passes: parts.findings.passes.best().iter().map(|p| pass(parts, p)).collect(),
-            load_distribution: load_distribution(parts),
-            along: crate::defects::along_roller(scenario),
-            indicators: indicators(parts),
-            slip: slip(parts),
-            slip_rows: slip_rows(parts),
-            cage_orbits: cage_orbits(parts),
-            sensor: sensor::view(parts),
-            motion: motion(parts),
-            audits: audits(parts),
-            solver_work: solver_work(parts),
-            assumptions: parts.loaded.provenance.clone(),
-            spread: None,
-            scenario_toml: parts.loaded.to_toml(),
+            chapters: all,
+            ..Self::simulated()
         }
+    }
+
+    /// An empty page of a run, which moves.
+    pub fn simulated() -> Self {
+        Self { footer: THINNED.into(), script: include_str!("../script/motion.js"), ..Self::default() }
+    }
+}
+
+fn of_signals(parts: &Parts) -> Signals {
+    let scenario = &parts.loaded.scenario;
+    let (envelope_orders, order_markers) = orders::orders(parts, parts.findings);
+    Signals {
+        title: scenario.name.clone(),
+        subtitle: subtitle(scenario),
+        healthy: healthy::healthy(parts, &envelope_orders),
+        waveform: waveform(parts),
+        spectrum: spectrum(parts),
+        envelope_spectrum: envelope_spectrum(parts),
+        envelope_orders,
+        order_markers,
+        markers: found_markers(scenario, parts.simulation.model(), &parts.findings.lines),
     }
 }
 

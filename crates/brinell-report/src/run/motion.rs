@@ -1,4 +1,4 @@
-//! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
+//! Of a run's page, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
 
 use crate::number::short;
 use crate::{AxialRow, AxialSection, CageOrbit, CageOrbits, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram};

@@ -1,4 +1,4 @@
-//! Of the report's data, the envelope over orders: where the speed varies, what a defect frequency is to a steady
+//! Of a run's page, the envelope over orders: where the speed varies, what a defect frequency is to a steady
 //! shaft.
 
 use super::signals::{axis, markers_at};

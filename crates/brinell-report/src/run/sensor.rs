@@ -1,4 +1,4 @@
-//! Of the report's data, the measurement chain.
+//! Of a run's page, the measurement chain.
 
 use crate::number::short;
 use crate::{Fact, SensorView};

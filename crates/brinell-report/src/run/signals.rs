@@ -1,4 +1,4 @@
-//! Of the report's data, the sensor signal: waveform, spectra, defect frequencies, indicators.
+//! Of a run's page, the sensor signal: waveform, spectra, defect frequencies, indicators.
 
 use crate::number::short;
 use crate::{Estimate, Event, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};

@@ -1,4 +1,4 @@
-//! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
+//! Of a run's page, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
 
 use super::healthy;
 use crate::Fact;

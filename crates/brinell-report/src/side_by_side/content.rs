@@ -5,8 +5,8 @@ use super::headline::{Headline, compared_headline};
 use crate::fact::Fact;
 use crate::frame::THINNED;
 use crate::number::{bracketed, capital, short, shown_unit, twelve_digits};
+use crate::page::{Chapter, Page};
 use crate::quantity::value_text;
-use crate::study::{Chapter, Study};
 use crate::tables::Table;
 use brinell::document::Loaded;
 use brinell::observe::passes::place;
@@ -20,7 +20,7 @@ use brinell_study::campaign::{
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
 
-impl Study {
+impl Page {
     /// What the page of a comparison shows: `compare.html` of `brinell compare`. `warnings`: those of [`beforehand`] and
     /// [`doubts`].
     ///

@@ -3,8 +3,8 @@
 use crate::data::{Along, Marker};
 use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
+use crate::page::Piece;
 use crate::run::found_markers;
-use crate::study::StudyPiece;
 use brinell::channel::SENSOR;
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
@@ -38,7 +38,7 @@ fn all_alike<T: PartialEq>(mut all: impl Iterator<Item = T>) -> Option<T> {
 }
 
 /// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.
-pub(super) fn waveform(names: &[String], runs: &[&RunResult]) -> StudyPiece {
+pub(super) fn waveform(names: &[String], runs: &[&RunResult]) -> Piece {
     let kept = |run: &RunResult| {
         let (first, values) = run.findings.waveform.latest();
         (first as f64 / run.simulation.sample_rate(), values)
@@ -68,17 +68,17 @@ pub(super) fn waveform(names: &[String], runs: &[&RunResult]) -> StudyPiece {
             .into(),
         ..Overlay::new("waveform", ("Time", "ms"), (&y_label, "m/s^2"), curves.collect())
     };
-    StudyPiece::Curves(overlay, shown.names)
+    Piece::Curves(overlay, shown.names)
 }
 
-pub(super) fn spectrum(names: &[String], runs: &[&RunResult]) -> StudyPiece {
+pub(super) fn spectrum(names: &[String], runs: &[&RunResult]) -> Piece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let s = run.findings.spectrum.as_ref()?;
         Some(even(of, s.frequency_step, s.amplitude.clone()))
     });
     let curves: Vec<_> = curves.collect();
     if curves.is_empty() {
-        return StudyPiece::Note("The runs are too short for a spectrum.".into());
+        return Piece::Note("The runs are too short for a spectrum.".into());
     }
     let shown = Shown::of(names, runs);
     let y_label = format!("Amplitude of {}", shown.label);
@@ -87,7 +87,7 @@ pub(super) fn spectrum(names: &[String], runs: &[&RunResult]) -> StudyPiece {
         note: "Peak amplitude, Hann window, whole analysed time.".into(),
         ..Overlay::new("spectrum", ("Frequency", "Hz"), (&y_label, "m/s^2"), curves)
     };
-    StudyPiece::Curves(overlay, shown.names)
+    Piece::Curves(overlay, shown.names)
 }
 
 fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
@@ -113,7 +113,7 @@ fn markers(names: &[String], runs: &[&RunResult]) -> Vec<(Option<usize>, Marker)
     all
 }
 
-pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
+pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> Piece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let (e, _) = run.findings.envelope.as_ref()?;
         let mut values = e.spectrum.amplitude.clone();
@@ -125,7 +125,7 @@ pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
     });
     let curves: Vec<_> = curves.collect();
     if curves.is_empty() {
-        return StudyPiece::Note("The runs are too short for an envelope spectrum.".into());
+        return Piece::Note("The runs are too short for an envelope spectrum.".into());
     }
     let mut shown = Shown::of(names, runs);
     let band = |run: &RunResult| {
@@ -156,7 +156,7 @@ pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
         marked,
         ..Overlay::new("envelope-spectrum", ("Frequency", "Hz"), ("Envelope amplitude", "m/s^2"), curves)
     };
-    StudyPiece::Curves(overlay, shown.names)
+    Piece::Curves(overlay, shown.names)
 }
 
 /// "defect 1 (outer raceway, row 1)".
@@ -170,11 +170,11 @@ pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
 type OverDefect = (&'static str, &'static str, &'static str, fn(&PassPoint) -> f64);
 
 /// Contact length, stiffness and force of the heaviest pass of each run.
-pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<StudyPiece> {
+pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     let passes: Vec<_> =
         runs.iter().map(|run| run.findings.passes.best().into_iter().find(|p| p.defect == defect)).collect();
     if passes.iter().all(Option::is_none) {
-        return vec![StudyPiece::Note("No roller passed it from end to end.".into())];
+        return vec![Piece::Note("No roller passed it from end to end.".into())];
     }
     let units = runs.iter().map(|run| stiffness_unit(run.scenario.contact.exponent));
     let stiffness = units.reduce(|a, b| if a == b { a } else { STIFFNESS_UNIT }).unwrap_or(STIFFNESS_UNIT);
@@ -193,17 +193,15 @@ pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) 
         let name = format!("defect{}-{name}", defect + 1);
         let overlay =
             Overlay { vertical: Vertical::FromZero, ..Overlay::new(name, x, (label, unit), curves.collect()) };
-        StudyPiece::Curves(overlay, names.to_vec())
+        Piece::Curves(overlay, names.to_vec())
     };
-    let mut pieces: Vec<StudyPiece> = quantities.into_iter().map(overlay).collect();
-    pieces.push(StudyPiece::Note(
-        "The pass with the largest contact force of each run, step by step of the solver.".into(),
-    ));
+    let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
+    pieces.push(Piece::Note("The pass with the largest contact force of each run, step by step of the solver.".into()));
     pieces
 }
 
 /// The mean acceleration around the instants of rollers' entry to and exit from the defect.
-pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<StudyPiece> {
+pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     let all: Vec<Vec<Impacts>> = runs.iter().map(|run| impacts(&run.simulation, &run.findings)).collect();
     let shown = Shown::of(names, runs);
     let mut pieces = Vec::new();
@@ -221,7 +219,7 @@ pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usiz
             curves.push(OverlaidCurve { of, along, values });
         }
         if curves.is_empty() {
-            pieces.push(StudyPiece::Note(format!("No {word} is within the waveform that was kept.")));
+            pieces.push(Piece::Note(format!("No {word} is within the waveform that was kept.")));
             continue;
         }
         let labels = [format!("Time from the {word}"), format!("Mean {}", shown.label)];
@@ -233,7 +231,7 @@ pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usiz
             ),
             ..Overlay::new(name, (&labels[0], "ms"), (&labels[1], "m/s^2"), curves)
         };
-        pieces.push(StudyPiece::Curves(overlay, shown.names.clone()));
+        pieces.push(Piece::Curves(overlay, shown.names.clone()));
     }
     pieces
 }

@@ -1,6 +1,6 @@
 //! The pictures of a calibration, whatever the data.
 
-use brinell_report::{Chapter, Study, StudyPiece, Tried, study_html};
+use brinell_report::{Chapter, Page, Piece, Tried, html};
 use brinell_study::calibrate::{Found, Key};
 
 fn key(log: bool, interval: Option<(f64, f64)>) -> Found {
@@ -13,12 +13,12 @@ fn run(value: f64, chi_square: f64, alone: bool) -> Tried {
 }
 
 fn page(key: Found, tried: Vec<Tried>) -> String {
-    let course = StudyPiece::Course(tried.iter().map(|run| run.chi_square).collect());
+    let course = Piece::Course(tried.iter().map(|run| run.chi_square).collect());
     let chapters = vec![
-        Chapter::new("keys", "Keys", "Keys", vec![StudyPiece::Misfit(key, tried)]),
+        Chapter::new("keys", "Keys", "Keys", vec![Piece::Misfit(key, tried)]),
         Chapter::new("course", "Course", "Course", vec![course]),
     ];
-    study_html(&Study { chapters, ..Study::default() })
+    html(&Page { chapters, ..Page::default() })
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What holds for every page and picture.
 
-use brinell_report::{Layout, Report, pictures};
+use super::sample::Report;
+use brinell_report::{Layout, pictures};
 
 /// What a page must hold whatever its data, and what it must not.
 pub(crate) fn check(page: &str) {
@@ -47,7 +48,7 @@ fn without_base64(text: &str) -> String {
 }
 
 pub(crate) fn check_pictures(report: &Report) {
-    for picture in pictures(report, Layout::Wide) {
+    for picture in pictures(&report.page(), Layout::Wide) {
         let svg = picture.svg();
         let tree = roxmltree::Document::parse(&svg);
         assert!(tree.is_ok(), "{}: {tree:?}", picture.name);

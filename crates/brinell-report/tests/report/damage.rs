@@ -103,11 +103,11 @@ fn regress_damage_that_cannot_be_drawn_is_not_called_healthy() {
     let mut report = filled("plain", &[1.0, -2.0, 3.0], 1e-4, 250.0);
     report.damage.clear();
     report.undrawn_damage = Some("contact.slices: 0".into());
-    let page = html(&report);
+    let page = html(&report.page());
     assert!(page.contains("could not be drawn") && page.contains("contact.slices: 0"));
     assert!(!page.contains("The bearing is healthy."));
     report.undrawn_damage = None;
-    assert!(html(&report).contains("The bearing is healthy."));
+    assert!(html(&report.page()).contains("The bearing is healthy."));
 }
 
 #[test]
@@ -131,13 +131,13 @@ fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
         section: curves("Section under it", "Thickness", ""),
         ..square_with_a_hole()
     }];
-    let page = html(&report);
+    let page = html(&report.page());
     for words in ["Contact conditions during roller passage", "Section under it", "Stiffness at 1 um."] {
         assert!(page.contains(words), "{words}");
     }
     // Symbols have lowered indices, not underscores.
     assert!(!page.contains(">damaged, L_s<") && page.contains(">damaged, L<tspan"));
-    let names: Vec<String> = pictures(&report, Layout::Wide).into_iter().map(|p| p.name).collect();
+    let names: Vec<String> = pictures(&report.page(), Layout::Wide).into_iter().map(|p| p.name).collect();
     for name in ["damage-1", "damage-1-passage", "damage-1-section"] {
         assert!(names.iter().any(|n| n == name), "{names:?}");
     }
@@ -162,9 +162,9 @@ fn analytic_pressures_are_drawn_a_picture_a_contact_with_the_cells_beyond_yield_
     assert_eq!(of("outer").middles_mm(), [vec![-0.1, 0.0, 0.1], vec![-0.5, 0.5]]);
     let mut report = ordinary();
     report.damage = vec![DamageView { pressures: vec![of("outer"), of("inner")], ..square_with_a_hole() }];
-    let page = html(&report);
+    let page = html(&report.page());
     assert!(page.contains("Pressure of the inner contact") && page.contains("Largest 4000 MPa."));
-    let all = pictures(&report, Layout::Wide);
+    let all = pictures(&report.page(), Layout::Wide);
     let drawn: Vec<_> = all.iter().filter(|p| p.name.starts_with("damage-1-pressure-")).collect();
     assert_eq!(drawn.iter().map(|p| &p.name[18..]).collect::<Vec<_>>(), ["outer", "inner"]);
     for picture in drawn {

@@ -1,12 +1,10 @@
 //! The page: what must be in it, and that nothing odd breaks it.
 
 use super::checks::{check, check_pictures};
-use super::sample::{filled, ordinary};
+use super::sample::{Report, filled, ordinary};
 use brinell::document::{Origin, Provenance};
 use brinell_damage::Photo;
-use brinell_report::{
-    Fact, Layout, MinMax, Report, detail_window, headline, html, load_distribution, overview, pictures,
-};
+use brinell_report::{Fact, Layout, MinMax, detail_window, headline, html, load_distribution, overview, pictures};
 use proptest::prelude::*;
 
 const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
@@ -14,7 +12,7 @@ const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
 #[test]
 fn regress_an_ordinary_page_is_whole_and_small() {
     let report = ordinary();
-    let page = html(&report);
+    let page = html(&report.page());
     check(&page);
     check_pictures(&report);
     assert!(page.len() < 2_000_000, "{} bytes", page.len());
@@ -32,18 +30,18 @@ fn regress_an_ordinary_page_is_whole_and_small() {
 fn regress_the_result_comes_first_and_assumptions_before_statements() {
     let mut report = ordinary();
     report.lead.clear();
-    report.envelope_orders.amplitude.clear();
-    assert!(!html(&report).contains("<p class=\"lead\">"));
-    assert!(!html(&report).contains("id=\"orders\""));
+    report.signals.envelope_orders.amplitude.clear();
+    assert!(!html(&report.page()).contains("<p class=\"lead\">"));
+    assert!(!html(&report.page()).contains("id=\"orders\""));
     report.lead = "3 × 4 mm defect <b>".into();
     let one = |key: &str, assumed| {
         let origin = Origin::Recorded(String::new());
         Provenance { key: key.into(), value: "1".into(), unit: "", origin, assumed, plausible: None }
     };
     report.assumptions = vec![one("stated.key", false), one("assumed.key", true)];
-    report.envelope_orders = report.envelope_spectrum.clone();
-    report.order_markers = report.markers.clone();
-    let page = html(&report);
+    report.signals.envelope_orders = report.signals.envelope_spectrum.clone();
+    report.signals.order_markers = report.signals.markers.clone();
+    let page = html(&report.page());
     check(&page);
     let at = |words: &str| page.find(words).unwrap_or_else(|| panic!("{words}"));
     assert!(at("<p class=\"lead\">3 × 4 mm defect &lt;b&gt;") < at("id=\"waveform\""));
@@ -57,17 +55,17 @@ fn regress_the_result_comes_first_and_assumptions_before_statements() {
 fn regress_the_healthy_bearing_lies_behind_the_damaged_one() {
     const BEHIND: &str = "Grey: the same bearing without the damage";
     let mut report = ordinary();
-    assert!(!html(&report).contains(BEHIND));
+    assert!(!html(&report.page()).contains(BEHIND));
     let tenth = |values: &[f64]| values.iter().map(|x| 0.1 * x).collect::<Vec<f64>>();
-    report.healthy.waveform = tenth(&report.waveform.series.values);
-    report.healthy.spectrum = tenth(&report.spectrum.amplitude);
-    report.healthy.envelope_spectrum = tenth(&report.envelope_spectrum.amplitude);
-    let page = html(&report);
+    report.signals.healthy.waveform = tenth(&report.signals.waveform.series.values);
+    report.signals.healthy.spectrum = tenth(&report.signals.spectrum.amplitude);
+    report.signals.healthy.envelope_spectrum = tenth(&report.signals.envelope_spectrum.amplitude);
+    let page = html(&report.page());
     check(&page);
     check_pictures(&report);
     assert_eq!(page.matches("\"drawn\":[1, 0]").count(), 3);
     assert_eq!(page.matches("{\"name\":\"healthy\"").count(), 3);
-    let pictures = pictures(&report, Layout::Wide);
+    let pictures = pictures(&report.page(), Layout::Wide);
     for name in ["waveform", "spectrum", "envelope-spectrum", "headline"] {
         let picture = pictures.iter().find(|p| p.name == name).unwrap();
         let svg = picture.svg();
@@ -85,13 +83,13 @@ fn regress_the_healthy_bearing_lies_behind_the_damaged_one() {
 fn regress_units_with_exponents_are_raised() {
     let mut report = ordinary();
     report.audits = vec![Fact::new("Stiffness", 1.898e8, "N/m^(10/9)", "")];
-    let page = html(&report);
+    let page = html(&report.page());
     assert!(page.contains("1.898×10⁸") && page.contains("N/m<sup>10/9</sup>"));
 }
 
 #[test]
 fn regress_an_empty_report_says_so() {
-    let page = html(&Report::default());
+    let page = html(&Report::default().page());
     check(&page);
     check_pictures(&Report::default());
     for words in
@@ -109,7 +107,7 @@ fn regress_every_string_is_escaped() {
     let mut report = filled(HOSTILE, &[1.0, 2.0, 3.0, 0.5, 0.7], 0.1, 2.0);
     let photo = Photo { columns: 1, grey: vec![0], mm_per_pixel: 1.0, notes: vec!["<1>".into()], ..Photo::default() };
     report.damage[0].photo = Some(photo);
-    let page = html(&report);
+    let page = html(&report.page());
     check(&page);
     check_pictures(&report);
     assert!(!page.contains("<img") && !page.contains('\u{0}'));
@@ -119,10 +117,10 @@ fn regress_every_string_is_escaped() {
 #[test]
 fn regress_the_close_up_spans_five_periods_of_the_damage() {
     let mut report = ordinary();
-    let (lo, hi) = detail_window(&report);
+    let (lo, hi) = detail_window(&report.signals);
     assert!((hi - lo - 5.0 / 250.102).abs() < 1e-9 && (hi - 255_999.0 / 25_600.0).abs() < 1e-9);
-    report.markers.clear();
-    let (lo, hi) = detail_window(&report);
+    report.signals.markers.clear();
+    let (lo, hi) = detail_window(&report.signals);
     assert!((hi - lo - 0.02).abs() < 1e-9);
 }
 
@@ -136,11 +134,11 @@ fn regress_the_start_does_not_flatten_the_overview() {
         min: [vec![-first; 10], vec![-1.0; 990]].concat(),
         max: vec![1.0; 1000],
     };
-    report.waveform.overview = Some(bins(650.0));
-    let svg = overview(&report, Layout::Wide).svg();
+    report.signals.waveform.overview = Some(bins(650.0));
+    let svg = overview(&report.signals, Layout::Wide).svg();
     assert!(svg.contains("the start reaches from −650 to 1 m/s²"), "{svg}");
-    report.waveform.overview = Some(bins(2.5));
-    assert!(!overview(&report, Layout::Wide).svg().contains("Cut off"));
+    report.signals.waveform.overview = Some(bins(2.5));
+    assert!(!overview(&report.signals, Layout::Wide).svg().contains("Cut off"));
 }
 
 #[test]
@@ -157,9 +155,9 @@ fn regress_odd_data_is_drawn() {
     ] {
         for (dt, frequency) in [(0.1, 2.0), (0.0, 0.0), (f64::NAN, f64::INFINITY), (1e300, 1e-300)] {
             let report = filled("x", &values, dt, frequency);
-            check(&html(&report));
+            check(&html(&report.page()));
             check_pictures(&report);
-            let png = headline(&report, Layout::Wide).png(1.0);
+            let png = headline(&report.signals, Layout::Wide).png(1.0);
             assert!(png.is_ok_and(|png| png.starts_with(b"\x89PNG")));
         }
     }
@@ -176,7 +174,7 @@ proptest! {
         frequency in any::<f64>(),
     ) {
         let report = filled(&text, &values, dt, frequency);
-        let page = html(&report);
+        let page = html(&report.page());
         prop_assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
         check_pictures(&report);
     }
@@ -188,7 +186,7 @@ proptest! {
         frequency in 1e-3..1e5,
     ) {
         let report = filled("x", &values, dt, frequency);
-        check(&html(&report));
+        check(&html(&report.page()));
         check_pictures(&report);
     }
 }

@@ -1,7 +1,7 @@
 //! Pictures for print: their size, their text, their typeface, and the numbers of their curves.
 
-use super::sample::ordinary;
-use brinell_report::{Layout, Picture, Report, pictures};
+use super::sample::{Report, ordinary};
+use brinell_report::{Layout, Picture, pictures};
 use miniz_oxide::inflate::decompress_to_vec_zlib;
 
 const PT_PER_MM: f64 = 72.0 / 25.4;
@@ -10,7 +10,7 @@ const INDEX: f64 = 0.72;
 const WIDTHS: [f64; 5] = [80.0, 90.0, 140.0, 190.0, 200.0];
 
 fn printed(mm: f64) -> Vec<Picture> {
-    pictures(&ordinary(), Layout::Print(mm))
+    pictures(&ordinary().page(), Layout::Print(mm))
 }
 
 fn number(text: &str) -> f64 {
@@ -44,7 +44,7 @@ fn analytic_svg_is_as_wide_as_asked_with_text_of_seven_to_nine_points() {
         }
     }
     // On the screen as ever: sizes without a unit, the page's typeface.
-    let screen = pictures(&ordinary(), Layout::Wide).remove(1).svg();
+    let screen = pictures(&ordinary().page(), Layout::Wide).remove(1).svg();
     assert!(screen.contains("width=\"960\"") && !screen.contains("@font-face"));
 }
 
@@ -145,16 +145,16 @@ fn envelope_of(lines: usize) -> Report {
         k => (1.7 * k as f64).sin().powi(2) * (k % 13) as f64,
     };
     let mut report = Report::default();
-    report.envelope_spectrum.label = "Envelope amplitude".into();
-    report.envelope_spectrum.unit = "m/s^2".into();
-    report.envelope_spectrum.df_hz = 0.5;
-    report.envelope_spectrum.amplitude = (0..lines).map(amplitude).collect();
+    report.signals.envelope_spectrum.label = "Envelope amplitude".into();
+    report.signals.envelope_spectrum.unit = "m/s^2".into();
+    report.signals.envelope_spectrum.df_hz = 0.5;
+    report.signals.envelope_spectrum.amplitude = (0..lines).map(amplitude).collect();
     report
 }
 
 /// The numbers of the envelope spectrum, and the vertices of its curve.
 fn in_numbers(report: &Report, layout: Layout) -> (Vec<f64>, Vec<f64>, Vec<(f64, f64)>) {
-    let all = pictures(report, layout);
+    let all = pictures(&report.page(), layout);
     let picture = all.iter().find(|p| p.name == "envelope-spectrum").unwrap();
     let tables = picture.tables();
     assert_eq!(tables.len(), 1);
@@ -170,7 +170,7 @@ fn analytic_the_curves_in_numbers_are_those_that_are_drawn() {
     for layout in [Layout::Wide, Layout::Print(90.0)] {
         let few = envelope_of(40);
         let (xs, ys, drawn) = in_numbers(&few, layout);
-        assert_eq!(ys, few.envelope_spectrum.amplitude);
+        assert_eq!(ys, few.signals.envelope_spectrum.amplitude);
         assert!((0..40).all(|k| xs[k] == 0.5 * k as f64));
         // Room for every one of them; pixels grow downwards.
         assert_eq!(drawn.len(), 40);
@@ -184,7 +184,7 @@ fn analytic_the_curves_in_numbers_are_those_that_are_drawn() {
         // On the same axes more than there are columns of pixels, of which each shows its highest.
         let many = envelope_of(5000);
         let (xs, ys, drawn) = in_numbers(&many, layout);
-        assert_eq!(ys, many.envelope_spectrum.amplitude);
+        assert_eq!(ys, many.signals.envelope_spectrum.amplitude);
         assert!(drawn.len() < 1000);
         let heights: Vec<f64> = ys.iter().map(|v| y(*v)).collect();
         for point in drawn {

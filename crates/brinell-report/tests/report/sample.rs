@@ -9,8 +9,70 @@ use brinell::signal;
 use brinell_report::{
     AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch,
     Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow,
-    Pass, PressureView, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform,
+    Page, Pass, PressureView, RowLoad, SensorView, Series, Signals, SlipRow, Spectrogram, Spectrum, Waveform, chapters,
 };
+use std::sync::Arc;
+
+/// What the page of a run is made of.
+#[derive(Clone, Default)]
+pub(crate) struct Report {
+    pub(crate) signals: Signals,
+    pub(crate) lead: String,
+    pub(crate) version: String,
+    pub(crate) partial: Option<String>,
+    pub(crate) warnings: Vec<String>,
+    pub(crate) facts: Vec<Fact>,
+    pub(crate) spectrogram: Spectrogram,
+    pub(crate) damage: Vec<DamageView>,
+    pub(crate) undrawn_damage: Option<String>,
+    pub(crate) passes: Vec<Pass>,
+    pub(crate) load_distribution: Vec<RowLoad>,
+    pub(crate) along: Option<DamageCurves>,
+    pub(crate) indicators: IndicatorTable,
+    pub(crate) slip: Vec<Fact>,
+    pub(crate) slip_rows: Vec<SlipRow>,
+    pub(crate) cage_orbits: CageOrbits,
+    pub(crate) sensor: SensorView,
+    pub(crate) motion: Motion,
+    pub(crate) audits: Vec<Fact>,
+    pub(crate) solver_work: Vec<Fact>,
+    pub(crate) assumptions: Vec<Provenance>,
+    pub(crate) scenario_toml: String,
+}
+
+impl Report {
+    /// As a run's page is put together.
+    pub(crate) fn page(&self) -> Page {
+        let r = self.clone();
+        let signals = Arc::new(r.signals);
+        let mut all = chapters::signals(&signals);
+        all.push(chapters::spectrogram(r.spectrogram));
+        all.extend(chapters::sensor(r.sensor));
+        all.extend([
+            chapters::damage(r.undrawn_damage.map_or(Ok(r.damage), Err)),
+            chapters::passes(r.passes),
+            chapters::load(r.load_distribution, r.along),
+            chapters::motion(r.motion),
+            chapters::orbit(r.cage_orbits),
+            chapters::indicators(&r.indicators),
+            chapters::slip(&r.slip, r.slip_rows),
+            chapters::assumptions(&r.assumptions),
+        ]);
+        all.extend(chapters::appendices(&r.audits, &r.solver_work, &r.scenario_toml));
+        all.push(chapters::headline(&signals));
+        Page {
+            title: signals.title.clone(),
+            subtitle: signals.subtitle.clone(),
+            version: r.version,
+            partial: r.partial,
+            lead: r.lead,
+            warnings: r.warnings,
+            facts: r.facts,
+            chapters: all,
+            ..Page::simulated()
+        }
+    }
+}
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
 fn damage_view(text: &str, values: &[f64]) -> DamageView {
@@ -151,38 +213,46 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         sidebands: vec![],
     };
     Report {
-        lead: text.into(),
-        healthy: Healthy {
-            waveform: values.to_vec(),
-            spectrum: values.to_vec(),
-            envelope_spectrum: values.to_vec(),
-            envelope_orders: values.to_vec(),
+        signals: Signals {
+            healthy: Healthy {
+                waveform: values.to_vec(),
+                spectrum: values.to_vec(),
+                envelope_spectrum: values.to_vec(),
+                envelope_orders: values.to_vec(),
+            },
+            envelope_orders: spectrum(),
+            order_markers: vec![marker(true)],
+            title: text.into(),
+            subtitle: text.into(),
+            waveform: Waveform {
+                series: Series {
+                    label: text.into(),
+                    unit: text.into(),
+                    t0_s: at(2),
+                    dt_s: dt,
+                    values: values.to_vec(),
+                },
+                overview: Some(MinMax {
+                    t0_s: at(2),
+                    dt_s: dt,
+                    min: values.to_vec(),
+                    max: values.iter().skip(1).copied().collect(),
+                }),
+                events: vec![
+                    Event { t_s: at(3), enters: true, label: text.into() },
+                    Event { t_s: at(4), enters: false, label: text.into() },
+                ],
+            },
+            spectrum: spectrum(),
+            envelope_spectrum: spectrum(),
+            markers: vec![marker(true), marker(false)],
         },
-        envelope_orders: spectrum(),
-        order_markers: vec![marker(true)],
-        title: text.into(),
-        subtitle: text.into(),
+        lead: text.into(),
         version: text.into(),
         partial: Some(text.into()),
         warnings: vec![text.into()],
         undrawn_damage: (at(2) < 0.0).then(|| text.to_owned()),
         facts: vec![fact(), Fact::new(text, text, text, text)],
-        waveform: Waveform {
-            series: Series { label: text.into(), unit: text.into(), t0_s: at(2), dt_s: dt, values: values.to_vec() },
-            overview: Some(MinMax {
-                t0_s: at(2),
-                dt_s: dt,
-                min: values.to_vec(),
-                max: values.iter().skip(1).copied().collect(),
-            }),
-            events: vec![
-                Event { t_s: at(3), enters: true, label: text.into() },
-                Event { t_s: at(4), enters: false, label: text.into() },
-            ],
-        },
-        spectrum: spectrum(),
-        envelope_spectrum: spectrum(),
-        markers: vec![marker(true), marker(false)],
         damage: vec![damage_view(text, values)],
         passes: vec![Pass {
             title: text.into(),
@@ -248,7 +318,6 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         },
         audits: vec![fact()],
         solver_work: vec![fact()],
-        spread: None,
         assumptions: vec![Provenance {
             key: text.into(),
             value: text.into(),
@@ -270,11 +339,11 @@ pub(crate) fn ordinary() -> Report {
         })
         .collect();
     let mut report = filled("plain", &values, 1.0 / 25_600.0, 250.102);
-    report.healthy = Healthy::default();
-    report.spectrum.df_hz = 0.1;
-    report.envelope_spectrum.df_hz = 0.1;
-    report.waveform.series.t0_s = 0.0;
-    report.waveform.series.unit = "m/s^2".into();
+    report.signals.healthy = Healthy::default();
+    report.signals.spectrum.df_hz = 0.1;
+    report.signals.envelope_spectrum.df_hz = 0.1;
+    report.signals.waveform.series.t0_s = 0.0;
+    report.signals.waveform.series.unit = "m/s^2".into();
     let point = |i: i32| {
         let degrees = 0.02 * f64::from(i) - 5.0;
         let length = if degrees.abs() < 3.1 { 2e-3 } else { 6e-3 };

@@ -1,8 +1,8 @@
 //! The pages of a sweep and of runs side by side: what is in them, whatever the data.
 
 use brinell_report::{
-    Along, Chapter, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Study,
-    StudyPiece, Vertical, study_html, study_pictures, sweep_lead, sweep_legend,
+    Along, Chapter, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Page, Piece,
+    Vertical, html, pictures, sweep_lead, sweep_legend,
 };
 
 fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
@@ -24,19 +24,19 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
     }
 }
 
-fn study(pieces: Vec<StudyPiece>) -> Study {
-    Study {
+fn study(pieces: Vec<Piece>) -> Page {
+    Page {
         title: "Sweep of <x>".into(),
         chapters: vec![Chapter::new("plots", "Plots", "Plots", pieces)],
-        ..Study::default()
+        ..Page::default()
     }
 }
 
 fn page(plot: IndicatorPlot) -> (String, String) {
-    let report = study(vec![StudyPiece::Trend(plot)]);
-    let pictures = study_pictures(&report, Layout::Wide);
+    let report = study(vec![Piece::Trend(plot)]);
+    let pictures = pictures(&report, Layout::Wide);
     assert_eq!(pictures.len(), 1);
-    (study_html(&report), pictures[0].svg())
+    (html(&report), pictures[0].svg())
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn prop_odd_data_make_a_page() {
     assert!(svg.contains("No point has a value") && page.ends_with("</html>\n"));
 }
 
-fn overlaid(vertical: Vertical, values: Vec<f64>) -> Study {
+fn overlaid(vertical: Vertical, values: Vec<f64>) -> Page {
     let curve = |of, along| OverlaidCurve { of, along, values: values.clone() };
     let places = (0..values.len()).map(|k| k as f64).collect();
     let even = Along::Even { first: 0.0, step: 1.0 };
@@ -112,34 +112,34 @@ fn overlaid(vertical: Vertical, values: Vec<f64>) -> Study {
         ..Overlay::default()
     };
     let names = ["actual", "unseen", "simple"].map(str::to_owned).to_vec();
-    study(vec![StudyPiece::Curves(overlay, names), StudyPiece::Note("That is all.".into())])
+    study(vec![Piece::Curves(overlay, names), Piece::Note("That is all.".into())])
 }
 
 #[test]
 fn regress_an_overlay_names_the_runs_that_it_shows() {
     let report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
-    let pictures = study_pictures(&report, Layout::Wide);
+    let pictures = pictures(&report, Layout::Wide);
     let svg = pictures[0].svg();
     assert!(svg.contains(">actual<") && svg.contains(">simple<") && !svg.contains(">unseen<"));
-    let page = study_html(&report);
+    let page = html(&report);
     assert!(page.contains("That is all.") && page.contains("<h2>Plots</h2>"));
 }
 
 #[test]
 fn regress_an_overlay_is_read_out_with_the_names_of_its_runs() {
     let mut report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
-    let page = study_html(&report);
+    let page = html(&report);
     for part in
         ["data-plot=\"spectrum\"", "data-chart=\"spectrum\"", "\"name\":\"actual\"", "\"name\":\"simple\",\"places\":"]
     {
         assert!(page.contains(part), "{part}");
     }
     // Places that go back and forth are no axis: such a plot is drawn, and not read out.
-    let StudyPiece::Curves(overlay, _) = &mut report.chapters[0].pieces[0] else {
+    let Piece::Curves(overlay, _) = &mut report.chapters[0].pieces[0] else {
         unreachable!("the sample begins with an overlay");
     };
     overlay.curves[1].along = Along::At(vec![0.0, 2.0, 1.0, 3.0]);
-    assert!(!study_html(&report).contains("data-chart="));
+    assert!(!html(&report).contains("data-chart="));
 }
 
 #[test]
@@ -153,8 +153,8 @@ fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
         values: vec![3.0, 5.0],
         ..HeatMap::default()
     };
-    let report = Study { lead: sweep_lead(&plots), ..study(vec![StudyPiece::Map(map)]) };
-    let page = study_html(&report);
+    let report = Page { lead: sweep_lead(&plots), ..study(vec![Piece::Map(map)]) };
+    let page = html(&report);
     for part in [
         "RMS of sensor_ax: from 3 m/s² (operation.speed_rpm = 1000) to 5 m/s² (operation.speed_rpm = 2000).",
         "RMS &lt;of&gt;",
@@ -168,7 +168,7 @@ fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
 fn prop_odd_curves_make_a_page() {
     for vertical in [Vertical::Around, Vertical::FromZero, Vertical::Decades] {
         for values in [vec![], vec![f64::NAN; 3], vec![f64::INFINITY, -1e308, 1e308], vec![0.0; 4]] {
-            let page = study_html(&overlaid(vertical, values));
+            let page = html(&overlaid(vertical, values));
             assert!(page.ends_with("</html>\n") && !page.contains("NaN"));
         }
     }

@@ -2,6 +2,7 @@
 
 use super::distribution::{Distribution, Value};
 use brinell::document::reading::{Misfit, Node, Spec, Toml, ValueType, key_text};
+use brinell::scenario::Unset;
 use serde_json::{Map, Value as Json};
 use std::collections::BTreeMap;
 
@@ -124,11 +125,13 @@ impl Default for Template {
     }
 }
 
-impl ValueType for Template {
-    fn blank() -> Self {
+impl Unset for Template {
+    fn unset() -> Self {
         Self::default()
     }
+}
 
+impl ValueType for Template {
     fn expected(_: &Spec) -> String {
         "keys of a scenario, each with a value or a distribution".into()
     }

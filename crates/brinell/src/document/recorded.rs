@@ -137,11 +137,6 @@ impl ValueType for Vec<Assumed> {
         Ok(list)
     }
 
-    fn node(&self) -> Node {
-        // Of a file alone: no scenario has it.
-        Node::unplaced(Value::Array(Vec::new()))
-    }
-
     fn write(&self) -> String {
         let mut text = String::from(
             "[\n  # Neither the author nor a cited source states these. Change a value above, and it is yours.\n",

@@ -5,7 +5,7 @@ use crate::scenario::{Choice, Unset};
 use serde_json::{Value as Json, json};
 
 use super::quantity;
-use super::source::{Node, Value};
+use super::source::{Node, Value, override_value};
 use super::spec::Spec;
 use super::toml_text::quote;
 
@@ -53,8 +53,11 @@ pub trait ValueType: Sized + Clone + Unset {
     /// # Errors
     /// Where it does not fit.
     fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit>;
-    /// The value as a node, without a place.
-    fn node(&self) -> Node;
+    /// The value as a node, without a place. Either this or [`ValueType::write`] is given; the other follows.
+    fn node(&self) -> Node {
+        let text = self.write();
+        override_value(&text).unwrap_or(Node::unplaced(Value::Text(text)))
+    }
     /// The value as TOML.
     fn write(&self) -> String {
         self.node().text()
