@@ -271,28 +271,11 @@ fn prop_no_file_is_longer_than_500_lines() {
 
 /// Tables without what each module uses: that they name all.
 #[test]
-fn prop_architecture_names_every_module() {
-    let page = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
-    for name in ["brinell-io", "brinell-li2023", "brinell-report", "brinell-study"] {
-        let src = root().join("crates").join(name).join("src");
-        let told: BTreeSet<String> = (table(&page, &format!("of `crates/{name}/src`")).iter())
-            .flat_map(|row| row[0].split(',').map(|n| n.trim().trim_matches('`').to_owned()).collect::<Vec<_>>())
-            .filter(|n| n.ends_with(".rs") || n.ends_with('/'))
-            .map(|n| n.trim_end_matches(".rs").trim_end_matches('/').to_owned())
-            .collect();
-        let there: BTreeSet<String> = (fs::read_dir(&src).unwrap())
-            .map(|entry| entry.unwrap().path())
-            .filter(|path| path.is_dir() || path.extension().is_some_and(|e| e == "rs"))
-            .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
-            .filter(|name| name != "lib")
-            .collect();
-        let missing: Vec<_> = there.difference(&told).collect();
-        let stale: Vec<_> = told.difference(&there).collect();
-        assert!(
-            missing.is_empty() && stale.is_empty(),
-            "{name}: not in ARCHITECTURE.md: {missing:?}; not there: {stale:?}"
-        );
-    }
+fn prop_every_file_says_its_subject_first() {
+    let crates = files_but(&root().join("crates"), &["target", "node_modules", "tests", "tests.rs", "examples", "build.rs"]);
+    let rust = crates.into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs"));
+    let silent: Vec<_> = rust.filter(|path| !fs::read_to_string(path).unwrap().starts_with("//!")).collect();
+    assert!(silent.is_empty(), "{silent:?}");
 }
 
 /// The files of a crate that name another one.
