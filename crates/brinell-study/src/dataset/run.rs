@@ -3,11 +3,11 @@
 use crate::dataset::campaign::Campaign;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, make};
-use crate::dataset::simulated::row;
+use crate::dataset::simulated::{Run, Short};
 use crate::dataset::{Tally, part, sidecar};
 use crate::listener::Listener;
 use crate::runner::side_by_side;
-use brinell_io::write_row_file;
+use brinell_io::{Cell, write_row_file};
 use std::collections::HashMap;
 use std::fs::File;
 use std::num::NonZeroUsize;
@@ -155,13 +155,18 @@ impl Work<'_> {
         Ok(Some(is_new))
     }
 
-    /// Runs `run` and puts its row to the disk; false where it was broken off.
+    /// Runs `run` and puts its row to the disk, with the reason where it cannot be; false where it was broken off.
     fn make(&self, part: usize, run: usize) -> Result<bool, DatasetError> {
-        let Some((cells, failed)) = row(self.campaign, run, self.listener) else {
-            return Ok(false);
-        };
+        let campaign = self.campaign;
+        let mut made = Run::new(campaign.draws(), run);
+        match made.go(campaign.try_scenario(run), campaign.signals(), self.listener) {
+            Ok(()) => {}
+            Err(Short::Failed(reason)) => made.failed = Some(reason),
+            Err(Short::Stopped) => return Ok(false),
+        }
+        let cells: Vec<Cell> = campaign.columns().iter().map(|column| column.cell(&mut made)).collect();
         write_row_file(self.folder.row(part, run), &cells)?;
-        self.listener.ended(run, failed.as_deref());
+        self.listener.ended(run, made.failed.as_deref());
         Ok(true)
     }
 

@@ -1,7 +1,6 @@
 //! One run, simulated as far as it can be: what the cells of its row are read from.
 
 use crate::campaign::settings_json;
-use crate::dataset::campaign::Campaign;
 use crate::dataset::truth::{Instant, Truth};
 use crate::design::{Draw, Draws, Value, unsaid};
 use crate::listener::Listener;
@@ -19,7 +18,7 @@ use brinell::scenario::{self, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
-use brinell_io::{Cell, Column};
+use brinell_io::Column;
 use serde_json::Value as Json;
 
 /// What a run's cells are read from, as far as it came.
@@ -35,29 +34,21 @@ pub(crate) struct Run<'a> {
 }
 
 /// Why a run has no signals.
-enum Short {
+pub(crate) enum Short {
     /// It was broken off.
     Stopped,
     /// It cannot be, or failed.
     Failed(String),
 }
 
-/// Run `index` as the cells of its row, and why it failed; nothing where it was broken off. A run that cannot be is a
-/// row with its reason.
-pub(crate) fn row(campaign: &Campaign, index: usize, listener: &dyn Listener) -> Option<(Vec<Cell>, Option<String>)> {
-    let mut run = Run { draws: campaign.draws(), index, draw: None, loaded: None, ended: None, failed: None };
-    match run.go(campaign.try_scenario(index), campaign.signals(), listener) {
-        Ok(()) => {}
-        Err(Short::Failed(reason)) => run.failed = Some(reason),
-        Err(Short::Stopped) => return None,
+impl<'a> Run<'a> {
+    /// Before it begins.
+    pub(crate) fn new(draws: &'a Draws, index: usize) -> Self {
+        Self { draws, index, draw: None, loaded: None, ended: None, failed: None }
     }
-    let cells = campaign.columns().iter().map(|column| column.cell(&mut run));
-    Some((cells.collect(), run.failed))
-}
 
-impl Run<'_> {
     /// Simulates its scenario, every channel of which must be among the signals.
-    fn go(
+    pub(crate) fn go(
         &mut self,
         scenario: Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)>,
         signals: &[Column],
