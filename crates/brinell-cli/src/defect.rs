@@ -8,9 +8,10 @@ use crate::args::{ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs,
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::say::{self, say, short, twelve_digits};
+use brinell::defect::Extent;
 use brinell::defect::Shape;
 use brinell::defect::fit::{Fit, FitSettings, Segment};
-use brinell::defect::simplify::{Extent, Simple, simplify};
+use brinell::defect::simplify::{Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell_damage::plan::{self, Contour};

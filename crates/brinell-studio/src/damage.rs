@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
-use brinell::defect::simplify::Extent;
+use brinell::defect::Extent;
 use brinell::defect::{Defect, Side};
 use brinell::model::Model;
 use brinell::scenario::{self, Surface};

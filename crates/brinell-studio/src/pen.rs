@@ -3,7 +3,7 @@
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use crate::text;
-use brinell::defect::simplify::Extent;
+use brinell::defect::Extent;
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Shape, Surface, TableData};
 use brinell_damage::{Stroke, brush, scratch, shape_of_bytes, table_of_bytes};

@@ -272,7 +272,8 @@ fn prop_no_file_is_longer_than_500_lines() {
 /// Tables without what each module uses: that they name all.
 #[test]
 fn prop_every_file_says_its_subject_first() {
-    let crates = files_but(&root().join("crates"), &["target", "node_modules", "tests", "tests.rs", "examples", "build.rs"]);
+    let crates =
+        files_but(&root().join("crates"), &["target", "node_modules", "tests", "tests.rs", "examples", "build.rs"]);
     let rust = crates.into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs"));
     let silent: Vec<_> = rust.filter(|path| !fs::read_to_string(path).unwrap().starts_with("//!")).collect();
     assert!(silent.is_empty(), "{silent:?}");

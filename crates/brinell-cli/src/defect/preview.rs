@@ -201,6 +201,7 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "title": view.title,
         "length_mm": m.length_mm,
         "arc_deg": m.arc_deg,
+        "width_mm": m.width_mm,
         "widest_mm": m.widest_mm,
         "area_mm2": m.area_mm2,
         "area_in_ecl_mm2": m.area_in_ecl_mm2,

@@ -13,6 +13,8 @@ pub struct Measures {
     pub length_mm: f64,
     /// Its angle on the damaged surface.
     pub arc_deg: f64,
+    /// Along the axis, from the lowest to the highest z.
+    pub width_mm: f64,
     /// Largest damaged length of the contact line, L_s; of a depth map what the surface between its nodes covers.
     pub widest_mm: f64,
     /// Seen from above; with the other numbers of a depth map of the surface between its nodes.
@@ -47,25 +49,9 @@ fn along(shape: &Shape, points: usize) -> impl Iterator<Item = f64> + use<> {
     })
 }
 
-pub(super) fn widest(defect: &Defect) -> f64 {
-    if let Shape::DepthMap(grid) = &defect.shape {
-        return grid.covered().widest;
-    }
-    widest_in_ecl(defect)
-}
-
 /// Largest L_s that the law `ecl` takes, m.
 fn widest_in_ecl(defect: &Defect) -> f64 {
     along(&defect.shape, 20_001).map(|s| defect.damaged_length(s)).fold(0.0, f64::max)
-}
-
-/// Deepest point and height of the highest raised edge, m.
-pub(super) fn deepest(defect: &Defect) -> (f64, f64) {
-    let own = match &defect.shape {
-        Shape::DepthMap(grid) => grid.extremes().0,
-        shape => along(shape, 20_001).map(|s| shape.own_depth(s).unwrap_or(defect.depth)).fold(0.0, f64::max),
-    };
-    (own, defect.shape.raised())
 }
 
 /// Along which coordinate the length is, and which way it is passed.
@@ -115,16 +101,12 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
         fact("Length", m.length_mm, 4, "mm", passed(passing, defect)),
         fact("Arc", m.arc_deg, 4, "°", "of the damaged surface".into()),
         fact(
-            "Max. width",
-            m.widest_mm,
+            "Width",
+            m.width_mm,
             4,
             "mm",
             format!(
-                "largest {}; the {}",
-                match defect.shape {
-                    Shape::DepthMap(_) => "damaged width of the surface between the nodes",
-                    _ => "L_s",
-                },
+                "along the axis, from the lowest to the highest z; the {}",
                 match bearing.has_balls() {
                     true => format!("ball is {} mm thick", short(bearing.roller_diameter_mm, 4)),
                     false => format!("roller is {} mm long", short(bearing.roller_length_mm, 4)),
@@ -136,6 +118,10 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
         fact("Deepest", m.deepest_um, 4, "µm", floor),
         fact("Time to pass", m.pass_ms, 4, "ms", format!("of the {contact}, at {} r/min", short(m.speed_rpm, 4))),
     ];
+    if m.widest_mm < (1.0 - 1e-6) * m.width_mm {
+        let note = "of one line along the axis: undamaged surface lies beside or between".into();
+        facts.insert(3, fact("Largest damaged length", m.widest_mm, 4, "mm", note));
+    }
     if m.raised_um > 0.0 {
         facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"half-space\"".into()));
     }
@@ -144,7 +130,7 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
             "largest L_s: this law counts each damaged node as wide as dz, {} mm^2 in all; the law \"half-space\" takes the surface",
             short(m.area_in_ecl_mm2, 4)
         );
-        facts.push(fact("Max. width in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));
+        facts.push(fact("Largest damaged length in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));
     }
     if let Some(share) = m.load_zone_share {
         facts.push(fact(

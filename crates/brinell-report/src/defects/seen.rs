@@ -1,12 +1,12 @@
 //! One defect with what its numbers, words and pictures are made of.
 
 use super::curves::{depths, section};
-use super::measures::{Measures, deepest, facts, widest};
+use super::measures::{Measures, facts};
 use super::passage::Passage;
 use super::pressures::pressures;
 use crate::number::short;
 use crate::{DamageCurves, DamageView};
-use brinell::defect::simplify::Extent;
+use brinell::defect::Extent;
 use brinell::defect::{Defect, Shape, Side, wrap};
 use brinell::derived::Passing;
 use brinell::model::Model;
@@ -66,16 +66,16 @@ impl<'a> Seen<'a> {
         let (first, last) = defect.shape.arc();
         let arc = (last - first) / defect.radius;
         let extent = Extent::of(&defect.shape, defect.depth);
-        let (deepest, raised) = deepest(defect);
         let measures = Measures {
             length_mm: 1e3 * extent.length,
             arc_deg: arc.to_degrees(),
-            widest_mm: 1e3 * widest(defect),
+            width_mm: 1e3 * extent.width,
+            widest_mm: 1e3 * extent.widest,
             area_mm2: 1e6 * extent.area,
             area_in_ecl_mm2: 1e6 * defect.shape.area_in_ecl(),
             mean_depth_um: 1e6 * extent.depth,
-            deepest_um: 1e6 * deepest,
-            raised_um: 1e6 * raised,
+            deepest_um: 1e6 * extent.deepest,
+            raised_um: 1e6 * extent.raised,
             pass_ms: 1e3 * pass,
             speed_rpm: 60.0 * model.rotation.max_speed() / TAU,
             load_zone_share: match defect.surface {

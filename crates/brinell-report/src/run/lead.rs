@@ -40,7 +40,7 @@ fn what(model: &Model, damage: &[Damage]) -> String {
                 Surface::InnerRaceway => "inner race".to_owned(),
                 Surface::Roller(k) => format!("{} {}", defect.element.word(), k + 1),
             };
-            let [length, width] = [one.measures.length_mm, one.measures.widest_mm].map(|mm| short(mm, 2));
+            let [length, width] = [one.measures.length_mm, one.measures.width_mm].map(|mm| short(mm, 2));
             format!("{length} × {width} mm defect, {place}")
         }
         (all, _) => format!("{} defects", all.len()),

@@ -202,8 +202,9 @@ fn analytic_numbers_of_a_depth_map_are_those_of_the_surface_between_its_nodes() 
         assert!((found - expected).abs() < 1e-9, "{name}: {found}");
     }
     // The law `ecl` counts nodes, and that is said where it is the law.
-    let told =
-        |damage: &brinell_report::Damage| damage.view.facts.iter().any(|f| f.label == "Max. width in the law ecl");
+    let told = |damage: &brinell_report::Damage| {
+        damage.view.facts.iter().any(|f| f.label == "Largest damaged length in the law ecl")
+    };
     assert!(told(&ecl));
     assert!(!told(&seen(
         &text

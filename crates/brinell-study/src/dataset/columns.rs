@@ -4,7 +4,7 @@
 use crate::campaign::fingerprint;
 use crate::dataset::simulated::Run;
 use crate::design::Draws;
-use brinell::defect::{Defect, Shape};
+use brinell::defect::{Defect, Extent};
 use brinell::kernel::Kernel;
 use brinell::observe::slip::RowSlip;
 use brinell::result::fields::{self, Field};
@@ -153,12 +153,10 @@ const TRUTH: [Fixed; 55] = [
         let (first, last) = d.shape.arc();
         1e3 * (last - first)
     }))),
-    ("defect_width_mm", "mm", "of each defect: largest damaged length along the axis",
-        Numbers(|r| r.defects(|_, d| 1e3 * largest(d, |s| d.damaged_length(s))))),
-    ("defect_depth_um", "um", "of each defect: largest depth", Numbers(|r| r.defects(|_, d| match &d.shape {
-        Shape::DepthMap(grid) => 1e6 * grid.extremes().0.max(grid.extremes().1),
-        _ => 1e6 * largest(d, |s| d.depth_at(s)),
-    }))),
+    ("defect_width_mm", "mm", "of each defect: along the axis, from the lowest to the highest z",
+        Numbers(|r| r.defects(|_, d| 1e3 * extent(d).width))),
+    ("defect_depth_um", "um", "of each defect: largest depth, or height of a raised edge where that is more",
+        Numbers(|r| r.defects(|_, d| 1e6 * extent(d).deepest.max(extent(d).raised)))),
     ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.area()))),
     ("defect_frequency_hz", "Hz", "of each defect: its ball-pass frequency (of a roller twice the spin frequency), in pure rolling at constant speed", Numbers(|r| {
         let k = r.kinematics()?;
@@ -219,12 +217,8 @@ const TRUTH: [Fixed; 55] = [
         Words(|r| r.scenario().map(fingerprint))),
 ];
 
-/// Largest value along a defect's arc, at 2001 points.
-fn largest(defect: &Defect, of: impl Fn(f64) -> f64) -> f64 {
-    const PARTS: u32 = 2000;
-    let (first, last) = defect.shape.arc();
-    let at = |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
-    (0..=PARTS).map(at).fold(0.0, f64::max)
+fn extent(defect: &Defect) -> Extent {
+    Extent::of(&defect.shape, defect.depth)
 }
 
 /// A column of the engine's list of a run's numbers.

@@ -6,6 +6,7 @@
 mod angles;
 pub mod ecl;
 mod envelope;
+mod extent;
 pub mod fit;
 mod grid;
 mod mean_depths;
@@ -23,6 +24,7 @@ pub mod simplify;
 pub use crate::contact::{SIDES, Side};
 pub use angles::{Angles, wrap};
 pub use envelope::envelope;
+pub use extent::Extent;
 pub use grid::{Covered, Grid};
 pub use mean_depths::MeanDepths;
 pub use on_table::Met;

@@ -1,6 +1,6 @@
 //! The simple shapes that others would have assumed instead of the real damage (the paper's section 4.2).
 
-use super::Shape;
+use super::{Extent, Shape};
 use crate::scenario::{self, Bearing};
 use std::f64::consts::PI;
 
@@ -13,55 +13,6 @@ pub enum Simple {
     EqualAreaRectangle,
     /// The circle of the same area.
     EqualAreaCircle,
-}
-
-/// Extents and mean depth of a shape, SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
-    /// Along s, m.
-    pub length: f64,
-    /// Along the axis, m: from the lowest to the highest z where the shape knows them, else the largest L_s.
-    pub width: f64,
-    /// s of the middle, m.
-    pub middle: f64,
-    /// m^2.
-    pub area: f64,
-    /// Volume over area, m; the shape's own where it has depths, else the defect's.
-    pub depth: f64,
-}
-
-impl Extent {
-    /// Of a shape; `depth` (m) is the defect's.
-    pub fn of(shape: &Shape, depth: f64) -> Self {
-        const CELLS: u32 = 20_000;
-        let (first, last) = shape.arc();
-        let ds = (last - first) / f64::from(CELLS);
-        let (mut widest, mut area, mut volume) = (0.0_f64, 0.0, 0.0);
-        for k in 0..CELLS {
-            let s = first + (f64::from(k) + 0.5) * ds;
-            let width = shape.damaged_length(s);
-            widest = widest.max(width);
-            area += width * ds;
-            volume += width * ds * shape.own_depth(s).unwrap_or(depth);
-        }
-        if let Shape::DepthMap(grid) = shape {
-            let covered = grid.covered();
-            (area, volume) = (covered.area, covered.volume);
-        }
-        let width = match shape {
-            Shape::Outline(outline) => outline.heights().1 - outline.heights().0,
-            Shape::DepthMap(grid) => grid.heights().1 - grid.heights().0,
-            Shape::Circle { radius } => 2.0 * radius,
-            _ => widest,
-        };
-        Self {
-            length: last - first,
-            width,
-            middle: 0.5 * (first + last),
-            area,
-            depth: if area > 0.0 { volume / area } else { depth },
-        }
-    }
 }
 
 /// The same defect with a simple shape, its centre moved to the middle of the real arc. A rectangle or circle is
