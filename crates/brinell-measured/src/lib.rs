@@ -25,6 +25,7 @@
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod asked;
 mod bearing;
 mod beside;
 mod called;
@@ -43,7 +44,7 @@ mod stretch;
 mod together;
 mod unit;
 
-pub use bearing::{Asked, Elements};
+pub use asked::{Asked, Elements};
 pub use called::Called;
 pub use diagnosis::{Against, Diagnosis, Findings};
 pub use examine::examine;
