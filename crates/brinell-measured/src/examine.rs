@@ -1,6 +1,7 @@
 //! From a signal to what is found in it.
 
-use crate::bearing::{Asked, orders};
+use crate::asked::Asked;
+use crate::bearing::orders;
 use crate::beside;
 use crate::diagnosis::{Against, Diagnosis, Findings};
 use crate::known::Source;

@@ -8,13 +8,14 @@
 //! ```
 //! use brinell_measured::{Asked, Called, GivenSpeed, Measurement, Problem, Request, examine};
 //!
-//! let x: Vec<String> = (0..24_000).map(|k| format!("{}", ((k * k) % 101) as f64)).collect();
+//! let mut noise = brinell::random::Random::new(1);
+//! let x: Vec<String> = (0..24_000).map(|_| noise.normal().to_string()).collect();
 //! let text = format!("acc [g]\n{}\n", x.join("\n")).into_bytes();
 //! let file = || brinell_io::open_bytes("rig.csv", text.clone());
 //! let mut request = Request { judged: true, ..Request::new(Called::Options("")) };
 //! request.bearings = vec![Asked::Name("6205-2RS".into())];
 //! let Err(Problem::Missing { questions, .. }) = Measurement::of_file(file()?, &request) else { panic!() };
-//! assert_eq!(questions.len(), 2);
+//! assert_eq!(questions.len(), 2); // rate and speed
 //! request.rate = Some(12e3);
 //! request.speed = Some(GivenSpeed { rpm: 1800.0, is_bare: false });
 //! let found = examine(Measurement::of_file(file()?, &request)?, &request)?;
@@ -24,6 +25,7 @@
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod asked;
 mod bearing;
 mod beside;
 mod called;
@@ -42,7 +44,7 @@ mod stretch;
 mod together;
 mod unit;
 
-pub use bearing::{Asked, Elements};
+pub use asked::{Asked, Elements};
 pub use called::Called;
 pub use diagnosis::{Against, Diagnosis, Findings};
 pub use examine::examine;

@@ -1,6 +1,6 @@
 //! What is asked of a measured signal, and what was given of it.
 
-use crate::bearing::{Asked, Elements};
+use crate::asked::{Asked, Elements};
 use crate::called::Called;
 use crate::known::Source;
 use crate::problem::Problem;
