@@ -19,7 +19,6 @@ use brinell::summary;
 use brinell_damage::Photo;
 use brinell_io::{Format, atomic_prepare, run_table};
 use brinell_report::Page;
-use brinell_study::campaign::Spread;
 use brinell_study::runner::{Make, Recorder, forecast};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
