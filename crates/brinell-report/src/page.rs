@@ -85,6 +85,9 @@ impl Piece {
     }
 }
 
+/// Writes what the page's script needs.
+type Embed = Arc<dyn Fn(&mut String) + Send + Sync>;
+
 /// A picture, drawn whenever a page or a file needs it.
 #[derive(Clone)]
 pub struct Figure {
@@ -93,7 +96,7 @@ pub struct Figure {
     caption: String,
     draw: Arc<dyn Fn(Layout) -> Picture + Send + Sync>,
     /// What the page's script redraws it with.
-    embed: Option<Arc<dyn Fn(&mut String) + Send + Sync>>,
+    embed: Option<Embed>,
     shown: bool,
     saved: bool,
 }
@@ -125,7 +128,7 @@ impl Figure {
         draw: for<'a> fn(&'a T, Layout) -> Plot<'a>,
     ) -> Self {
         let data = Arc::clone(of);
-        let embed: Arc<dyn Fn(&mut String) + Send + Sync> = Arc::new(move |page| draw(&data, Layout::Wide).embed(page));
+        let embed: Embed = Arc::new(move |page| draw(&data, Layout::Wide).embed(page));
         Self { embed: Some(embed), ..Self::still(id, caption, of, move |of, layout| draw(of, layout).picture()) }
     }
 

@@ -29,7 +29,7 @@ impl Page {
             pieces.extend(class.shown.iter().map(|run| tile(&sheet, run)));
             Chapter::new(&format!("class{}", class.label), &class.name, &title, pieces)
         };
-        let mut chapters = vec![Chapter::new("pictures", "Pictures", "", vec![Piece::Note(PICTURES.into())])];
+        let mut chapters = vec![Chapter::of("pictures", "Pictures", Piece::Note(PICTURES.into()))];
         chapters.extend(sheet.classes.iter().map(class));
         Self {
             title: sheet.name.clone(),
