@@ -3,7 +3,7 @@
 use crate::frame::unit_html;
 use crate::markup::escape;
 use crate::number::short;
-use crate::tables::{close_table, open_table};
+use crate::tables::rows;
 use brinell_study::campaign::{Bar, Level};
 use std::fmt::Write as _;
 
@@ -22,20 +22,14 @@ pub(crate) fn spread(page: &mut String, levels: &[Level]) {
     if let Some(first) = levels.iter().find(|level| level.name.ends_with(".rms")) {
         tornado(page, first);
     }
-    open_table(page, false, &["Number", "#Value", "#From", "#To", "Unit", "First by"]);
-    for level in levels {
+    let row = |level: &Level| {
         let [low, high] = level.band.map(|x| short(x, 3));
         let first = level.bars.first().map_or("", |bar| &bar.key);
-        let _ = writeln!(
-            page,
-            "<tr><th scope=\"row\"><code>{}</code></th><td class=\"number\">{}</td><td class=\"number\">{low}</td><td class=\"number\">{high}</td><td>{}</td><td><code>{}</code></td></tr>",
-            escape(&level.name),
-            short(level.value, 4),
-            if level.unit == "1" { String::new() } else { unit_html(&level.unit) },
-            escape(first)
-        );
-    }
-    close_table(page);
+        let unit = if level.unit == "1" { String::new() } else { unit_html(&level.unit) };
+        let code = |name: &str| format!("<code>{}</code>", escape(name));
+        vec![code(&level.name), short(level.value, 4), low, high, unit, code(first)]
+    };
+    rows(page, &["Number", "#Value", "#From", "#To", "Unit", "First by"], levels.iter().map(row));
 }
 
 /// Bars on a logarithmic axis from the least to the greatest value.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::data::{Estimate, IndicatorTable};
+use crate::data::{Estimate, IndicatorRow, IndicatorTable};
 use crate::fact::{Fact, Value};
 use crate::frame::{none, unit_html};
 use crate::markup::escape;
@@ -38,19 +38,54 @@ impl Table {
     }
 }
 
-/// A table up to its rows; heads as [`Table::columns`]. `stack` has narrow pages set the cells of a row one below the
-/// other.
-pub(crate) fn open_table(page: &mut String, stack: bool, heads: &[impl AsRef<str>]) {
+/// Columns that a phone has room for side by side.
+const COLUMNS: usize = 4;
+/// Characters of a name that is not broken.
+const NAME: usize = 40;
+
+/// Characters that are seen of a cell.
+fn seen(html: &str) -> usize {
+    let mut within = false;
+    html.chars()
+        .filter(|c| {
+            within = (within || *c == '<') && *c != '>';
+            !within && *c != '>'
+        })
+        .count()
+}
+
+/// The one writer of tables: heads as [`Table::columns`], where `Note`, `Why` and `Source or reason` are set in grey; cells are HTML. A table that
+/// is wider than a narrow page, or has sentences, becomes a card a row there.
+pub(crate) fn rows(page: &mut String, heads: &[impl AsRef<str>], rows: impl IntoIterator<Item = Vec<String>>) {
+    let heads: Vec<&str> = heads.iter().map(AsRef::as_ref).collect();
+    let rows: Vec<Vec<String>> = rows.into_iter().collect();
+    let stack = heads.len() > COLUMNS || rows.iter().flatten().any(|cell| seen(cell) > SENTENCE);
     let class = if stack { " class=\"stack\"" } else { "" };
     let _ = write!(page, "<div class=\"scroll\"><table{class}><thead><tr>");
-    for head in heads.iter().map(AsRef::as_ref) {
+    for head in &heads {
         let class = if head.starts_with('#') { " class=\"number\"" } else { "" };
         let _ = write!(page, "<th{class}>{}</th>", escape(head.trim_start_matches('#')));
     }
     page.push_str("</tr></thead><tbody>\n");
-}
-
-pub(crate) fn close_table(page: &mut String) {
+    let numbers = heads.iter().filter(|head| head.starts_with('#')).count();
+    for row in rows {
+        page.push_str("<tr>");
+        for (k, cell) in row.iter().enumerate() {
+            let head = heads.get(k).copied().unwrap_or_default();
+            let name = head.trim_start_matches('#');
+            let labelled = stack && (numbers > 1 || !head.starts_with('#'));
+            let label = if labelled { format!(" data-head=\"{}\"", escape(name)) } else { String::new() };
+            let _ = match head {
+                _ if k == 0 && seen(cell) <= NAME => write!(page, "<th scope=\"row\">{cell}</th>"),
+                _ if k == 0 => write!(page, "<td>{cell}</td>"),
+                "Unit" => write!(page, " <td class=\"unit\">{cell}</td>"),
+                "Note" | "Why" | "Source or reason" => write!(page, "<td class=\"note\">{cell}</td>"),
+                _ if head.starts_with('#') => write!(page, "<td class=\"number\"{label}>{cell}</td>"),
+                _ => write!(page, "<td{label}>{cell}</td>"),
+            };
+        }
+        page.push_str("</tr>\n");
+    }
     page.push_str("</tbody></table></div>\n");
 }
 
@@ -92,22 +127,16 @@ fn judged(ok: bool) -> &'static str {
 }
 
 pub(crate) fn fact_table(page: &mut String, facts: &[Fact]) {
-    open_table(page, true, &["Quantity", "#Value", "Unit", "Note"]);
-    for fact in facts {
-        let _ = write!(page, "<tr><th scope=\"row\">{}</th>", escape(&fact.label));
-        value_cells(page, &fact.value, &fact.unit);
-        let _ = write!(page, "<td class=\"note\">{}", unit_html(&fact.note));
-        if let Some(ok) = fact.ok {
-            let _ = write!(page, " {}", judged(ok));
-        }
-        page.push_str("</td></tr>\n");
-    }
-    close_table(page);
+    let row = |fact: &Fact| {
+        let ok = fact.ok.map_or(String::new(), |ok| format!(" {}", judged(ok)));
+        let [value, unit] = value_cells(&fact.value, &fact.unit);
+        vec![escape(&fact.label), value, unit, unit_html(&fact.note) + &ok]
+    };
+    rows(page, &["Quantity", "#Value", "Unit", "Note"], facts.iter().map(row));
 }
 
-fn value_cells(page: &mut String, value: &Value, unit: &str) {
-    let (value, unit) = (escape(&value.words(6)), unit_html(unit));
-    let _ = write!(page, "<td class=\"number\">{value}</td> <td class=\"unit\">{unit}</td>");
+fn value_cells(value: &Value, unit: &str) -> [String; 2] {
+    [escape(&value.words(6)), unit_html(unit)]
 }
 
 pub(crate) fn indicators(page: &mut String, table: &IndicatorTable) {
@@ -116,22 +145,13 @@ pub(crate) fn indicators(page: &mut String, table: &IndicatorTable) {
     }
     let columns = table.columns.iter().map(|column| format!("#{column}"));
     let heads: Vec<String> = ["Channel", "Signal"].map(String::from).into_iter().chain(columns).collect();
-    open_table(page, false, &heads);
-    for row in &table.rows {
-        let _ = write!(
-            page,
-            "<tr><th scope=\"row\"><code>{}</code></th><td>{}</td>",
-            escape(&row.channel),
-            escape(&row.kind)
-        );
-        for cell in
-            row.cells.iter().map(Some).chain(std::iter::repeat(None)).take(table.columns.len().max(row.cells.len()))
-        {
-            let _ = write!(page, "<td class=\"number\">{}</td>", cell.map_or_else(|| "–".to_owned(), estimate));
-        }
-        page.push_str("</tr>\n");
-    }
-    close_table(page);
+    let of = |row: &IndicatorRow| {
+        let missing = table.columns.len().saturating_sub(row.cells.len());
+        let names = [format!("<code>{}</code>", escape(&row.channel)), escape(&row.kind)];
+        let cells = row.cells.iter().map(estimate).chain(std::iter::repeat_n("–".to_owned(), missing));
+        names.into_iter().chain(cells).collect()
+    };
+    rows(page, &heads, table.rows.iter().map(of));
     if !table.note.is_empty() {
         none(page, &escape(&table.note));
     }
@@ -190,41 +210,21 @@ fn plain(value: &str) -> String {
 const LONGEST_NUMBER: usize = 9;
 
 fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Provenance>) {
-    open_table(page, true, &["Key", "#Value", "Unit", "Source or reason"]);
-    for assumption in all {
-        let _ = write!(page, "<tr><th scope=\"row\"><code>{}</code></th>", escape(&assumption.key));
-        value_cells(page, &plain(&assumption.value).into(), assumption.unit);
-        let tag = match assumption.assumed {
-            true => "<span class=\"tag assumed\">assumed</span> ",
-            false => "",
-        };
-        let _ = writeln!(page, "<td class=\"note\">{tag}{}</td></tr>", escape(&assumption.reason()));
-    }
-    close_table(page);
+    let row = |of: &Provenance| {
+        let tag = if of.assumed { "<span class=\"tag assumed\">assumed</span> " } else { "" };
+        let [value, unit] = value_cells(&plain(&of.value).into(), of.unit);
+        vec![format!("<code>{}</code>", escape(&of.key)), value, unit, format!("{tag}{}", escape(&of.reason()))]
+    };
+    rows(page, &["Key", "#Value", "Unit", "Source or reason"], all.map(row));
 }
 
 pub(crate) fn table(page: &mut String, table: &Table) {
     let _ = writeln!(page, "<section>\n<h2>{}</h2>", escape(&table.title));
-    // Beside sentences, which a narrow page has no room for in a column.
-    let stack = table.rows.iter().flatten().any(|cell| cell.chars().count() > SENTENCE);
-    open_table(page, stack, &table.columns);
-    let class = |i: usize| match table.columns.get(i).and_then(|head| head.strip_prefix('#')) {
-        Some(head) if stack => format!(" class=\"number\" data-head=\"{}\"", escape(head)),
-        Some(_) => " class=\"number\"".into(),
-        None => String::new(),
+    let cell = |(k, cell): (usize, &String)| match table.columns.get(k).map(String::as_str) {
+        Some("Unit") => unit_html(cell),
+        _ => escape(cell),
     };
-    for row in &table.rows {
-        page.push_str("<tr>");
-        for (i, cell) in row.iter().enumerate() {
-            let set = match table.columns.get(i).map(String::as_str) {
-                Some("Unit") => unit_html(cell),
-                _ => escape(cell),
-            };
-            let _ = write!(page, "<td{}>{set}</td>", class(i));
-        }
-        page.push_str("</tr>\n");
-    }
-    close_table(page);
+    rows(page, &table.columns, table.rows.iter().map(|row| row.iter().enumerate().map(cell).collect()));
     if !table.note.is_empty() {
         let _ = writeln!(page, "<p class=\"none\">{}</p>", escape(&table.note));
     }
@@ -233,14 +233,5 @@ pub(crate) fn table(page: &mut String, table: &Table) {
 
 /// What failed, and why. `each` is what one of them is called: "Point".
 pub(crate) fn failures(page: &mut String, each: &str, all: &[(String, String)]) {
-    open_table(page, true, &[each, "Why"]);
-    for (name, reason) in all {
-        let _ = writeln!(
-            page,
-            "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
-            escape(name),
-            escape(reason)
-        );
-    }
-    close_table(page);
+    rows(page, &[each, "Why"], all.iter().map(|(name, reason)| vec![escape(name), escape(reason)]));
 }

@@ -1,6 +1,5 @@
 //! The chapters of a run's page, each from its own data.
 
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::axial::axial_section;
@@ -23,7 +22,7 @@ use crate::sensor::{SensorView, sensor_response};
 use crate::slip::{SlipRow, slip_over_angle, slip_over_time, there_is};
 use crate::spectrogram::{Spectrogram, spectrogram as shades_of};
 use crate::spread::spread as bands;
-use crate::tables::{assumptions as values, close_table, indicators as indicator_table, open_table};
+use crate::tables::{assumptions as values, indicators as indicator_table, rows};
 use brinell::document::Provenance;
 use brinell_study::campaign::Level;
 
@@ -107,21 +106,16 @@ fn envelope(r: &Arc<Signals>) -> Vec<Piece> {
 }
 
 fn frequencies(page: &mut String, markers: &[Marker]) {
-    open_table(page, false, &["Name", "#Frequency", "Unit", "Excitation", "Defect present"]);
-    for marker in markers {
-        let _ = writeln!(
-            page,
-            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">Hz</td><td>{}</td><td>{}</td></tr>",
-            escape(&marker.label),
-            significant(marker.frequency_hz, 6),
-            escape(&match marker.pure_rolling_hz {
-                Some(hz) => format!("{}; found, in pure rolling {} Hz", marker.meaning, significant(hz, 6)),
-                None => marker.meaning.clone(),
-            }),
-            if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" },
-        );
-    }
-    close_table(page);
+    let row = |marker: &Marker| {
+        let excitation = match marker.pure_rolling_hz {
+            Some(hz) => format!("{}; found, in pure rolling {} Hz", marker.meaning, significant(hz, 6)),
+            None => marker.meaning.clone(),
+        };
+        let present = if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" };
+        let frequency = significant(marker.frequency_hz, 6);
+        vec![escape(&marker.label), frequency, "Hz".into(), escape(&excitation), present.into()]
+    };
+    rows(page, &["Name", "#Frequency", "Unit", "Excitation", "Defect present"], markers.iter().map(row));
 }
 
 /// Shades over time and frequency.
