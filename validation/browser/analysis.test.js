@@ -19,14 +19,15 @@ describe("the page of an analysis", { skip: existsSync(path) ? false : `no page 
   const curves = (page, name) => page.locator(`svg.wide[data-name="${name}"] .series path`).evaluateAll((all) => all.map((p) => p.getAttribute("d")));
   const zoomIn = (page, name) => figure(page, name).getByRole("button", { name: /^Zoom in/ }).click();
 
-  it("on a phone wide tables scroll within their own boxes, and the page nowhere aside", () => quietly(browser, url, { width: 390 }, async (page) => {
+  it("on a phone wide tables are cards, and nothing reaches aside", () => quietly(browser, url, { width: 390 }, async (page) => {
     await drawn(page);
-    const { aside, boxes } = await page.evaluate(() => ({
+    const { aside, wide, cards } = await page.evaluate(() => ({
       aside: document.documentElement.scrollWidth - document.documentElement.clientWidth,
-      boxes: [...document.querySelectorAll(".scroll")].map((e) => [e.scrollWidth > e.clientWidth, getComputedStyle(e).overflowX]),
+      wide: [...document.querySelectorAll(".scroll")].filter((e) => e.scrollWidth > e.clientWidth).length,
+      cards: [...document.querySelectorAll("table")].filter((e) => e.rows[0].cells.length > 4).map((e) => getComputedStyle(e).display),
     }));
-    assert.equal(aside, 0);
-    assert.ok(boxes.some(([wide]) => wide) && boxes.every(([, overflow]) => overflow === "auto"), JSON.stringify(boxes));
+    assert.deepEqual([aside, wide], [0, 0]);
+    assert.ok(cards.length && cards.every((display) => display === "block"), JSON.stringify(cards));
   }));
 
   for (const name of ["close-up", "spectrum", "envelope-spectrum"]) {

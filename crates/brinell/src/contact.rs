@@ -15,7 +15,8 @@ use crate::elementary::Exponent;
 use crate::lanes::{Lanes, eight_ninths};
 #[doc(hidden)]
 pub use damping::{Damping, damped};
-pub use law::{ContactLaw, Elastic, Place};
+pub use law::{ContactLaw, Elastic, Place, check};
+pub(crate) use law::{deflection, usual};
 pub use side::{SIDES, Side};
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from

@@ -1,7 +1,7 @@
 //! Contact laws and forces of a user's own: the program's law written anew is the program's; audits close over both.
 
 use crate::common::cases::{every_term, random_state};
-use brinell::contact::{ContactLaw, Elastic, Place, SIDES, Side};
+use brinell::contact::{ContactLaw, Elastic, Place, SIDES, Side, check};
 use brinell::model::{Model, Motion, imbalance};
 use brinell::scenario::{DefectTable, ModelKind, RollerProfile, Scenario, TableData, TableValues};
 use brinell::simulate::Simulation;
@@ -121,6 +121,41 @@ fn prop_audits_close_over_forces_on_every_body() {
     }
 }
 
+type Change = fn(&mut Elastic);
+
+/// The law with something wrong.
+#[derive(Debug)]
+struct Wrong(Arc<Power>, Change);
+
+impl ContactLaw for Wrong {
+    fn at(&self, place: &Place, delta: f64) -> Elastic {
+        let mut at = self.0.at(place, delta);
+        (self.1)(&mut at);
+        at
+    }
+}
+
+#[test]
+fn analytic_a_law_whose_derivatives_are_not_those_of_its_energy_is_refused() {
+    let s = sound();
+    let law = Power::of(&s, (0.4e-6, 9.0));
+    check(&*law, (2, 19)).unwrap();
+    let wrongs: [(&str, Change); 7] = [
+        ("force", |e| e.force *= 1.1),
+        ("force", |e| e.energy *= 1.5),
+        ("tangent", |e| e.tangent *= 2.0),
+        ("by_raceway", |e| e.by_raceway *= -1.0),
+        ("by_raceway", |e| e.by_raceway = 0.0),
+        ("by_element", |e| e.by_element *= 0.5),
+        ("not finite", |e| e.force = f64::NAN),
+    ];
+    for (words, wrong) in wrongs {
+        let custom = Custom { contact: Some(Arc::new(Wrong(law.clone(), wrong))), forces: vec![] };
+        let error = Model::with_custom(&s, custom).unwrap_err();
+        assert!(error.key == "contact law" && error.value.contains(words), "{words}: {error}");
+    }
+}
+
 #[test]
 fn analytic_forces_accelerate_the_body_they_act_on() {
     for (name, s) in every_term().into_iter().filter(|(_, s)| s.simulation.model != ModelKind::Lumped) {
@@ -184,6 +219,9 @@ fn prop_what_the_equations_have_no_place_for_is_refused_by_name() {
     let mut crowned = sound();
     crowned.bearing.profile = RollerProfile::Crowned { crowned_radius_mm: 900.0 };
     assert!(refused(&crowned, law(&crowned)).starts_with("bearing.profile = "));
+    let mut tilting = sound();
+    tilting.simulation.model = ModelKind::Tilting;
+    assert!(refused(&tilting, law(&tilting)).starts_with("simulation.model = tilting"));
     let li2023 = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[simulation]\nduration_s = 0.05\nlaws = \"li2023\"";
     let centred = Scenario::from_toml(li2023).unwrap();
     assert!(refused(&centred, law(&centred)).starts_with("simulation.geometry = "));

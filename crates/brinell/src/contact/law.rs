@@ -1,6 +1,7 @@
 //! A normal contact law of the user's own, in place of the program's.
 
-use super::Side;
+use super::{SIDES, Side};
+use std::f64::consts::TAU;
 
 /// A contact: which it is, and where its bodies have turned to. Rows and rolling elements count from 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,9 +19,12 @@ pub struct Place {
 }
 
 impl Place {
-    /// The first contact of a side, nothing turned.
-    pub fn of(side: Side) -> Self {
-        Self { side, row: 0, element: 0, on_raceway: 0.0, on_element: 0.0 }
+    /// Sample `k` of a side: over a turn of raceway and element, and over rows and elements (numbers of both).
+    fn sample(side: Side, k: usize, (rows, elements): (usize, usize)) -> Self {
+        // Steps that fill both turns evenly, whatever the number of samples.
+        const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+        let [on_raceway, on_element] = STEPS.map(|step| TAU * (k as f64 * step).fract());
+        Self { side, row: k % rows, element: k % elements, on_raceway, on_element }
     }
 }
 
@@ -29,7 +33,7 @@ impl Place {
 pub struct Elastic {
     /// E, J.
     pub energy: f64,
-    /// dE/d(delta), N: the normal force, from 0.
+    /// dE/d(delta), N: the normal force, never negative.
     pub force: f64,
     /// d²E/d(delta)², N/m.
     pub tangent: f64,
@@ -41,26 +45,98 @@ pub struct Elastic {
 
 /// A normal contact law for [`Custom`](crate::Custom): E and its derivatives, healthy and damaged, for every contact of the bearing.
 ///
-/// All forces follow from E, so that the energy audit of a run closes exactly where the derivatives are those of E. Damping and friction stay
+/// All forces follow from E; [`check`] holds the derivatives against differences of E, and no run begins where they are not those. Damping and friction stay
 /// those of the scenario: damping by the tangent (`contact.damping`), friction by the force. The program's law, its damage included, does not act
-/// beside it: defects of the scenario then only mark where rolling elements enter and leave. The law is called for every contact at every evaluation and
+/// beside it: defects of the scenario then only mark where rolling elements enter and leave. Waviness does. The law is called for every contact at every evaluation and
 /// must not allocate.
 pub trait ContactLaw: std::fmt::Debug + Send + Sync {
     /// The contact at the deformation `delta` (m, negative where healthy surfaces are apart).
     fn at(&self, place: &Place, delta: f64) -> Elastic;
+}
 
-    /// Deformation under `force` (N, from 0) of the contact that statics, life and the solver's longest step are for, m: by default
-    /// [`Place::of`] that side, by bisection between 0 and 1 mm.
-    fn deflection(&self, side: Side, force: f64) -> f64 {
-        let (mut low, mut high) = (0.0, 1e-3);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.at(&Place::of(side), middle).force < force {
-                low = middle;
-            } else {
-                high = middle;
+/// Deformation of the contact at a place under `force` (N, from 0), m: by bisection up to 1 mm.
+pub(crate) fn deflection(law: &dyn ContactLaw, place: &Place, force: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1e-3);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if law.at(place, middle).force < force {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
+/// The contacts that statics, life and the solver's longest step are for: of each side the one of the median deflection under 100 N, which damage that
+/// is short of half a turn leaves alone.
+pub(crate) fn usual(law: &dyn ContactLaw, counts: (usize, usize)) -> [Place; 2] {
+    SIDES.map(|side| {
+        let mut all: Vec<Place> = (0..25).map(|k| Place::sample(side, k, counts)).collect();
+        all.sort_by(|a, b| deflection(law, a, 100.0).total_cmp(&deflection(law, b, 100.0)));
+        all[12]
+    })
+}
+
+/// Samples of each side and deformation.
+const SAMPLES: usize = 2000;
+/// Deformations at which a law is held against differences of its energy, m.
+const DEFORMATIONS: [f64; 5] = [-5e-6, 0.3e-6, 2e-6, 8e-6, 30e-6];
+/// Error of a derivative that differences explain, and the share of samples, near kinks, at which it may be larger.
+const MISSED: (f64, f64) = (0.01, 0.1);
+
+/// Holds a law's derivatives against differences of its energy, and the tangent against those of its force, over bearings of so many rows and elements.
+///
+/// # Errors
+/// Which derivative is wrong, where, and both numbers.
+pub fn check(law: &dyn ContactLaw, counts: (usize, usize)) -> Result<(), String> {
+    // Name, unit, and by how much more than 0 a derivative counts (of the largest one).
+    const NAMES: [&str; 4] = ["force (N)", "tangent (N/m)", "by_raceway (N m)", "by_element (N m)"];
+    let mut worst: [(f64, String); 4] = std::array::from_fn(|_| (0.0, String::new()));
+    let mut counted = [[0_usize; 2]; 4];
+    let mut largest = [0.0_f64; 4];
+    for pass in 0..2 {
+        for (side, k) in SIDES.into_iter().flat_map(|side| (0..SAMPLES).map(move |k| (side, k))) {
+            let (place, delta) = (Place::sample(side, k, counts), DEFORMATIONS[k % DEFORMATIONS.len()]);
+            let at = law.at(&place, delta);
+            let given = [at.force, at.tangent, at.by_raceway, at.by_element];
+            if given.iter().chain([&at.energy]).any(|x| !x.is_finite()) {
+                return Err(format!("not finite at {place:?}, delta = {delta} m: {at:?}"));
+            }
+            let turned = |raceway: f64, element: f64| {
+                let (on_raceway, on_element) = (place.on_raceway + raceway, place.on_element + element);
+                law.at(&Place { on_raceway, on_element, ..place }, delta).energy
+            };
+            let (h, angle) = (1e-4 * delta.abs(), 1e-6);
+            let [before, after] = [-h, h].map(|h| law.at(&place, delta + h));
+            let found = [
+                (after.energy - before.energy) / (2.0 * h),
+                (after.force - before.force) / (2.0 * h),
+                (turned(angle, 0.0) - turned(-angle, 0.0)) / (2.0 * angle),
+                (turned(0.0, angle) - turned(0.0, -angle)) / (2.0 * angle),
+            ];
+            for (n, (given, found)) in given.into_iter().zip(found).enumerate() {
+                let size = given.abs().max(found.abs());
+                if pass == 0 {
+                    largest[n] = largest[n].max(size);
+                } else if size > 1e-3 * largest[n] {
+                    let error = (given - found).abs() / size;
+                    counted[n][0] += 1;
+                    counted[n][1] += usize::from(error > MISSED.0);
+                    if error > worst[n].0 {
+                        worst[n] = (
+                            error,
+                            format!("{given:.4e} given, {found:.4e} by differences, at {place:?}, delta = {delta} m"),
+                        );
+                    }
+                }
             }
         }
-        high
     }
+    for (name, ([all, wrong], (_, words))) in NAMES.iter().zip(counted.into_iter().zip(worst)) {
+        if wrong as f64 > MISSED.1 * all as f64 {
+            return Err(format!("{name} is not the derivative at {wrong} of {all} samples: {words}"));
+        }
+    }
+    Ok(())
 }

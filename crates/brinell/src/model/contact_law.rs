@@ -2,7 +2,7 @@
 //! paper's `ecl` (section 3), or by the user's own ([`Model::at_rest`]).
 
 use super::{Layout, Model};
-use crate::contact::{ContactLaw, Elastic, Place};
+use crate::contact::{self, ContactLaw, Elastic, Place};
 use crate::defect::{Angles, Defect, Defects, Met, Side, ecl};
 use crate::scenario::Law;
 use crate::slices::{Approach, Healthy, Slices};
@@ -157,8 +157,8 @@ impl Model {
 
     /// Deformation at the roller's middle of a healthy contact under `force` (N), m.
     pub fn deflection(&self, side: Side, force: f64) -> f64 {
-        if let Some(law) = &self.custom.contact {
-            return law.deflection(side, force);
+        if let (Some(law), Some(usual)) = (&self.custom.contact, &self.usual) {
+            return contact::deflection(&**law, &usual[side as usize], force);
         }
         let even = self.contact(side).deflection(force);
         match self.profiled() {
@@ -170,8 +170,8 @@ impl Model {
     /// dQ/d(delta) of a healthy contact under `force` (N), N/m.
     pub fn stiffness_at(&self, side: Side, force: f64) -> f64 {
         let (law, delta) = (self.contact(side), self.deflection(side, force));
-        if let Some(own) = &self.custom.contact {
-            return own.at(&Place::of(side), delta).tangent;
+        if let (Some(own), Some(usual)) = (&self.custom.contact, &self.usual) {
+            return own.at(&usual[side as usize], delta).tangent;
         }
         match self.profiled() {
             Some(slices) => slices.carry(law, &Approach::pressed(delta)).stiffness[0],

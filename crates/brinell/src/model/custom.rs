@@ -26,7 +26,8 @@ impl PartialEq for Custom {
 /// A further force on rings, cages and rolling elements, for [`Custom`].
 ///
 /// It acts from t = 0; the balance that a run starts from does not know it. Its work is booked with that of the load, and forces and moments count as external
-/// ones in the audit of momentum: what acts between two bodies has to be added to both. It is called at every evaluation and must not allocate.
+/// ones in the audit of momentum: what acts between two bodies has to be added to both. It is called at every evaluation and must not allocate. The solver's
+/// longest step does not know it: a stiff spring or damper costs steps.
 pub trait Force: std::fmt::Debug + Send + Sync {
     /// Adds the forces at time `t` (s).
     fn add(&self, t: f64, bodies: &Bodies<'_>, forces: &mut Forces<'_>);

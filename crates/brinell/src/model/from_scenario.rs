@@ -6,7 +6,7 @@ use super::{BroadPhase, Custom, Geometry, Inertia, Kernel, Layout, Model, ModelE
 use crate::cage::{Guide, LandLaw, OIL_FORCE, OiledWall, Pocket};
 use crate::contact::ball;
 use crate::contact::film::SqueezeFilm;
-use crate::contact::{Damping, LoadDeflection, Place};
+use crate::contact::{self, Damping, LoadDeflection};
 use crate::defect::{SIDES, Side, relative_radius};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
@@ -15,7 +15,7 @@ use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
     self, Bearing, Cage, Contact, ContactDamping, Element, GeometryLaw, Guidance, GuidanceFilm, Housing, Law,
-    Lubricant, ModelKind, Pockets, RacewayFilm, Scenario, Walls,
+    Lubricant, ModelKind, Pockets, RacewayFilm, RollerProfile, Scenario, Walls,
 };
 use crate::slices::Slices;
 use crate::waviness::Waviness;
@@ -158,6 +158,7 @@ impl Model {
             defects,
             law: contact.law,
             custom: Custom::default(),
+            usual: None,
         })
     }
 
@@ -172,11 +173,18 @@ impl Model {
             return refuse("simulation.model", "lumped".into(), "full or tilting, for further forces and contact laws");
         }
         if let Some(law) = &custom.contact {
-            if !s.has_even_contacts() {
+            if model.tilt.is_some() {
+                return refuse(
+                    "simulation.model",
+                    "tilting".into(),
+                    "full: a contact law of one's own knows no slices",
+                );
+            }
+            if model.slices.is_some() {
                 return refuse(
                     "bearing.profile",
-                    format!("{:?}", s.bearing.profile),
-                    "straight, and simulation.model full: a contact law of one's own knows no slices",
+                    profile_word(&s.bearing.profile),
+                    "straight: a contact law of one's own knows no slices",
                 );
             }
             if !model.exact {
@@ -186,10 +194,17 @@ impl Model {
                     "exact, where what a contact law pushes has a reaction on every body",
                 );
             }
+            let counts = (s.bearing.rows, s.bearing.rollers_per_row);
+            if let Err(words) = contact::check(&**law, counts) {
+                return refuse("contact law", words, "finite, with derivatives that are those of its energy");
+            }
+            let usual = contact::usual(&**law, counts);
+            model.usual = Some(usual);
             let damping = SIDES.map(|side| model.contact(side).damping);
             let spring = |side: Side, force: f64| {
-                let delta = law.deflection(side, force);
-                let tangent = law.at(&Place::of(side), delta).tangent;
+                let place = &usual[side as usize];
+                let delta = contact::deflection(&**law, place, force);
+                let tangent = law.at(place, delta).tangent;
                 [tangent, damping[side as usize].of(tangent, delta)]
             };
             model.stable_steps = StableSteps::new(spring, model.inertia.roller);
@@ -197,6 +212,17 @@ impl Model {
         model.custom = custom;
         Ok(model)
     }
+}
+
+/// A profile as a file names it.
+fn profile_word(profile: &RollerProfile) -> String {
+    let word = match profile {
+        RollerProfile::Straight => "straight",
+        RollerProfile::Logarithmic => "logarithmic",
+        RollerProfile::Crowned { .. } => "{ crowned_radius_mm = .. }",
+        RollerProfile::Table { .. } => "{ z_mm = .., drop_um = .. }",
+    };
+    word.into()
 }
 
 impl Geometry {

@@ -9,7 +9,7 @@ use super::tilt::Tilt;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::film::SqueezeFilm;
-use crate::contact::{Damping, LoadDeflection};
+use crate::contact::{Damping, LoadDeflection, Place};
 use crate::defect::{Defect, Defects, Side};
 use crate::friction::Friction;
 use crate::lanes::Column;
@@ -113,6 +113,8 @@ pub struct Model {
     pub start: Start,
     /// What the user's program adds.
     pub custom: Custom,
+    /// Where that has a contact law: the contacts of either side that statics and the longest step are for.
+    pub(super) usual: Option<[Place; 2]>,
 }
 
 impl Model {

@@ -7,8 +7,8 @@
 //! there without a value. No wall time is among them: the same scenario gives the same numbers.
 
 use super::fields::{
-    ANALYSED_FROM, ANALYSED_TURNS, AUDITS, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect, LINES, LOAD, NOT_SETTLED,
-    REACHED, SLIP, WORK, exact, indicator, record,
+    ANALYSED, ANALYSED_TURNS, AUDITS, COURSE, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect, LINES, LOAD, SLIP,
+    WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
 use crate::did_you_mean::did_you_mean;
@@ -144,9 +144,9 @@ pub fn quantities(
     all.extend(AUDITS.iter().map(audit));
     let work = |f: &Field<fn(&Outcome) -> u64>| f.quantity("work", exact(Some((f.of)(outcome) as f64)));
     all.extend(WORK.iter().map(work));
-    all.push(analysed(&ANALYSED_FROM, findings));
-    all.push(analysed(&NOT_SETTLED, findings));
-    all.push(REACHED.quantity("", exact((REACHED.of)(outcome))));
+    // The turns stand with the averages.
+    all.extend(ANALYSED.iter().filter(|f| f.name != ANALYSED_TURNS.name).map(|f| analysed(f, findings)));
+    all.extend(COURSE.iter().map(|f| f.quantity("", exact((f.of)(outcome)))));
     all
 }
 

@@ -147,7 +147,8 @@ impl EnergyAudit {
     /// The size of [`EnergyAudit::relative_residual`] where it is more than [`RESIDUAL_SHARE`]: steps were too long for
     /// the motion.
     pub fn left_open(&self) -> Option<f64> {
-        self.relative_residual().map(f64::abs).filter(|share| *share > RESIDUAL_SHARE)
+        // What is not a number is open too.
+        self.relative_residual().map(f64::abs).filter(|share| share.is_nan() || *share > RESIDUAL_SHARE)
     }
 }
 

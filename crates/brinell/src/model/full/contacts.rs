@@ -278,6 +278,10 @@ fn custom(model: &Model, law: &dyn ContactLaw, (q, ring_angle): (&[f64], f64), w
             contacts.damper[slot] = model.contact(side).damping.of(resting.tangent, delta.max(0.0));
             contacts.push[slot] = resting.push;
             contacts.push_element[slot] = resting.push_element;
+            // A force that is no number would be taken for an open contact.
+            if !resting.force.is_finite() {
+                contacts.push[slot] = f64::NAN;
+            }
         }
     }
 }
