@@ -17,7 +17,7 @@ pub enum Asked {
         name: String,
         /// Where it comes from, in words.
         words: String,
-        /// Itself.
+        /// Its number.
         bearing: Box<Bearing>,
     },
 }
@@ -62,7 +62,7 @@ impl Elements {
         Ok((orders, format!("{source}; contact angle {angle} degrees, as given")))
     }
 
-    /// That no angle is given beside a scenario, which has its own.
+    /// Refuses a contact angle beside a scenario, which has its own.
     ///
     /// # Errors
     /// Where one is.

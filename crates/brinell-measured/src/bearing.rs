@@ -31,7 +31,7 @@ pub(crate) fn orders(
     let doubled =
         given[2].and(bsf_of_races(&orders)).filter(|bsf| (orders.bsf.unwrap_or(*bsf) / (2.0 * bsf) - 1.0).abs() < 0.03);
     let doubled =
-        doubled.map(|bsf| format!("the races' make a BSF of {bsf:.3}x, and twice that is given: is it 2 BSF?"));
+        doubled.map(|bsf| format!("BPFO and BPFI belong to a BSF of {bsf:.3}x, and twice that is given: is it 2 BSF?"));
     let notes = [words, DefectOrders::given_words(given), doubled].into_iter().flatten().collect();
     let mut orders = Known { value: orders, source, notes, doubts: Vec::new() };
     if let Some(run) = run {
@@ -53,14 +53,14 @@ fn other_bearing(asked: &str, orders: &DefectOrders, own: &DefectOrders, toleran
     differs.then(|| format!("{asked} was taken, but the run that made the file is of another bearing"))
 }
 
-/// The BSF of the bearing whose races are passed so often: with g = (BPFI - BPFO) / (BPFI + BPFO), (1 / g - g) / 2.
+/// BSF that follows from BPFO and BPFI: with g = (BPFI - BPFO) / (BPFI + BPFO), (1 / g - g) / 2.
 fn bsf_of_races(orders: &DefectOrders) -> Option<f64> {
     let (bpfo, bpfi) = (orders.bpfo?, orders.bpfi?);
     let g = (bpfi - bpfo) / (bpfi + bpfo);
     Some(0.5 * (1.0 / g - g))
 }
 
-/// Orders before any frequency is given in their place, whose they are, and that in words.
+/// Orders from the bearing, before frequencies that are given replace them; which bearing; and that in words.
 fn base(
     request: &Request,
     asked: Option<&Asked>,

@@ -29,7 +29,7 @@ pub(crate) fn spread(page: &mut String, levels: &[Level]) {
         let code = |name: &str| format!("<code>{}</code>", escape(name));
         vec![code(&level.name), short(level.value, 4), low, high, unit, code(first)]
     };
-    rows(page, &["Number", "#Value", "#From", "#To", "Unit", "First by"], levels.iter().map(row));
+    rows(page, &["Number", "#Value", "#From", "#To", "Unit", "Largest effect"], levels.iter().map(row));
 }
 
 /// Bars on a logarithmic axis from the least to the greatest value.
@@ -50,7 +50,7 @@ fn tornado(page: &mut String, level: &Level) {
         escape(&level.name),
         LABELS + WIDTH + 60.0
     );
-    row(page, 0, "all of them, the band", [level.band[0], level.band[1]], ("var(--warn)", &x));
+    row(page, 0, "all together (band)", [level.band[0], level.band[1]], ("var(--warn)", &x));
     for (k, bar) in bars.iter().enumerate() {
         row(page, k + 1, &bar.key, ends(bar, level.value), ("var(--blue)", &x));
     }

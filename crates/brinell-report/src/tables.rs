@@ -9,7 +9,7 @@ use crate::markup::escape;
 use crate::number::{short, significant, twelve_digits, with_interval};
 use brinell::document::Provenance;
 
-/// Characters from which a cell holds sentences.
+/// A cell with more characters than this is taken for a sentence.
 const SENTENCE: usize = 100;
 
 /// A table of words and numbers as they are to be read.
@@ -17,7 +17,7 @@ const SENTENCE: usize = 100;
 pub struct Table {
     /// Heading.
     pub title: String,
-    /// Heads of the columns; one that begins with `#` is set as numbers, `Unit` as units.
+    /// Heads of the columns. The cells under a head that begins with `#` are numbers, those under `Unit` units.
     pub columns: Vec<String>,
     /// Rows, a cell for each column.
     pub rows: Vec<Vec<String>>,
@@ -54,8 +54,8 @@ fn seen(html: &str) -> usize {
         .count()
 }
 
-/// The one writer of tables: heads as [`Table::columns`], where `Note`, `Why` and `Source or reason` are set in grey; cells are HTML. A table that
-/// is wider than a narrow page, or has sentences, becomes a card a row there.
+/// The one writer of tables: heads as [`Table::columns`], where `Note`, `Why` and `Source or reason` are set in grey; cells are HTML. On a
+/// narrow page each row of a table with many columns, or with sentences, is a card.
 pub(crate) fn rows(page: &mut String, heads: &[impl AsRef<str>], rows: impl IntoIterator<Item = Vec<String>>) {
     let heads: Vec<&str> = heads.iter().map(AsRef::as_ref).collect();
     let rows: Vec<Vec<String>> = rows.into_iter().collect();

@@ -26,7 +26,7 @@ use crate::tables::{assumptions as values, indicators as indicator_table, rows};
 use brinell::document::Provenance;
 use brinell_study::campaign::Level;
 
-/// Passes and defects drawn; a page with more is no longer read.
+/// At most so many passes and defects are drawn, so that the page stays readable.
 const DRAWN: usize = 12;
 
 /// A picture under its caption.
@@ -53,7 +53,7 @@ pub fn signals(r: &Arc<Signals>) -> Vec<Chapter> {
     all
 }
 
-/// The run in one picture, for files alone.
+/// The run in one picture: for files only, not on the page.
 pub fn headline(r: &Arc<Signals>) -> Chapter {
     let figure = Figure::still("", "", r, plots::headline).unseen();
     Chapter::new("", "", "", vec![Piece::Figure(figure)])
@@ -165,7 +165,7 @@ pub fn damage(views: Result<Vec<DamageView>, String>) -> Chapter {
     Chapter::new("damage", "Damage", "Damage", pieces)
 }
 
-/// Of pieces the pictures, for files alone.
+/// The pictures of these pieces: for files only, not on the page.
 fn unseen(pieces: Vec<Piece>) -> impl Iterator<Item = Piece> {
     pieces.into_iter().filter_map(|piece| match piece {
         Piece::Figure(figure) => Some(Piece::Figure(figure.unseen())),

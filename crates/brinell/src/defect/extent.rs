@@ -7,9 +7,9 @@ use super::Shape;
 pub struct Extent {
     /// Along s, m.
     pub length: f64,
-    /// Along the axis, m: from the lowest to the highest z where the shape knows them, else the largest L_s.
+    /// Along the axis, m: from the lowest to the highest z; for shapes that are only a width over s, the largest L_s.
     pub width: f64,
-    /// Largest damaged length along the axis at one s, m: less than the width where undamaged surface lies between. Of a depth map of the surface between its nodes.
+    /// Largest damaged length along the axis at one s, m: less than the width where undamaged surface lies between. A depth map counts the surface between its nodes.
     pub widest: f64,
     /// s of the middle, m.
     pub middle: f64,
@@ -39,7 +39,7 @@ impl Extent {
             deepest = deepest.max(depth);
             volume += width * ds * depth;
         }
-        // Profiles have theirs at the points that are given, the ends among them.
+        // The extremes of a profile may be at its ends.
         for s in [first, last] {
             let inside = s + 1e-9 * (0.5 * (first + last) - s);
             widest = widest.max(shape.damaged_length(inside));

@@ -4,11 +4,11 @@ use super::choices::Choice;
 
 /// What stands in for a value that could not be read or is not given: no check objects to it.
 pub trait Unset {
-    /// Such a value; numbers are not a number, so that nothing is said of what is computed with them.
+    /// Such a value. Numbers are NaN, so that no problem is reported of what is computed from them.
     fn unset() -> Self;
 }
 
-/// Defines structs whose fields all are [`Unset`], and so are they.
+/// Defines structs and makes them [`Unset`]; all their fields must be.
 macro_rules! sections {
     ($($(#[$about:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident: $type:ty,)+ })+) => {$(
         $(#[$about])*
