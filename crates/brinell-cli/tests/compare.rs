@@ -47,8 +47,8 @@ fn regress_files_and_variants_come_side_by_side() {
         "simulation.model",
         "Entry and exit",
         "simple / actual",
-        "<td>instantaneous</td>",
-        "<td>anti-aliased</td>",
+        ">instantaneous</td>",
+        ">anti-aliased</td>",
     ] {
         assert!(page.contains(part), "no {part}");
     }
