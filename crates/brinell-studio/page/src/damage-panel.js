@@ -294,8 +294,7 @@ export class DamagePanel {
 
   /** @param {Request} request */
   #heed(request) {
-    const store = this.owner.store(),
-      type = request.type;
+    const { type } = request;
     if (type === "undo") this.step(this.owner.undo);
     else if (type === "redo") this.step();
     else if (type === "select") this.select(request.defect);

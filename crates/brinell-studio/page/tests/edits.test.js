@@ -1,21 +1,11 @@
 // Edits of a scenario on the studio's page: what is taken, what is refused, and what runs meanwhile. Driven in Chromium, as studio.test.js is.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { digitsOf, numberOf, short, stepped } from "../src/dom.js";
 import { fromLink } from "../src/state.js";
-import { launch, quietly, serve } from "./browser.js";
+import { quietly } from "./browser.js";
 import { drag, drop, holds, opened, saved, says, scenario, start, type, until } from "./page.js";
-
-let browser, server;
-
-before(async () => {
-  browser = await launch();
-  server = await serve();
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
-});
+import { browser, server } from "./served.js";
 
 // The bearing has run on: an edit before would have reached it.
 const ran = async (page) =>

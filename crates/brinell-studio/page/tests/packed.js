@@ -5,21 +5,19 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
-import { WASM, launch, quietly, serve } from "./browser.js";
+import { WASM, quietly } from "./browser.js";
+import { browser, server } from "./served.js";
 
 export const ROOT = resolve(import.meta.dirname, "..");
-export let browser, server, folder, file;
+export let folder, file;
+export { browser, server };
 
 before(async () => {
-  browser = await launch();
-  server = await serve();
   folder = await mkdtemp(join(tmpdir(), "brinell-studio-"));
   execFileSync(process.execPath, [join(ROOT, "pack.mjs"), "--wasm", WASM, "-o", folder]);
   file = pathToFileURL(join(folder, "brinell-studio.html")).href;
 });
 after(async () => {
-  await browser?.close();
-  server?.close();
   if (folder) await rm(folder, { recursive: true });
 });
 

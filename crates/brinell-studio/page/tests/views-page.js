@@ -2,21 +2,11 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { after, before } from "node:test";
-import { launch, open, serve } from "./browser.js";
+import { open } from "./browser.js";
+import { browser, server } from "./served.js";
 
 export const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const windows = new Map();
-let browser, server;
-
-before(async () => {
-  browser = await launch();
-  server = await serve();
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
-});
 
 export async function on(options, look) {
   const url = `${server.url}tests/views.html`,

@@ -156,7 +156,10 @@ const TRUTH: [Fixed; 55] = [
     ("defect_width_mm", "mm", "of each defect: along the axis, from the lowest to the highest z",
         Numbers(|r| r.defects(|_, d| 1e3 * extent(d).width))),
     ("defect_depth_um", "um", "of each defect: largest depth, or height of a raised edge where that is more",
-        Numbers(|r| r.defects(|_, d| 1e6 * extent(d).deepest.max(extent(d).raised)))),
+        Numbers(|r| r.defects(|_, d| {
+            let extent = extent(d);
+            1e6 * extent.deepest.max(extent.raised)
+        }))),
     ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.area()))),
     ("defect_frequency_hz", "Hz", "of each defect: its ball-pass frequency (of a roller twice the spin frequency), in pure rolling at constant speed", Numbers(|r| {
         let k = r.kinematics()?;

@@ -72,9 +72,11 @@ pub(crate) fn deflection(law: &dyn ContactLaw, place: &Place, force: f64) -> f64
 /// is short of half a turn leaves alone.
 pub(crate) fn usual(law: &dyn ContactLaw, counts: (usize, usize)) -> [Place; 2] {
     SIDES.map(|side| {
-        let mut all: Vec<Place> = (0..25).map(|k| Place::sample(side, k, counts)).collect();
-        all.sort_by(|a, b| deflection(law, a, 100.0).total_cmp(&deflection(law, b, 100.0)));
-        all[12]
+        let one = |k| Place::sample(side, k, counts);
+        let mut all: Vec<(f64, Place)> =
+            (0..25).map(one).map(|place| (deflection(law, &place, 100.0), place)).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all[12].1
     })
 }
 
@@ -85,57 +87,71 @@ const DEFORMATIONS: [f64; 5] = [-5e-6, 0.3e-6, 2e-6, 8e-6, 30e-6];
 /// Error of a derivative that differences explain, and the share of samples, near kinks, at which it may be larger.
 const MISSED: (f64, f64) = (0.01, 0.1);
 
+/// A law at one place: its derivatives as it gives them, and by differences.
+struct Sampled {
+    place: Place,
+    delta: f64,
+    given: [f64; 4],
+    found: [f64; 4],
+}
+
+impl Sampled {
+    /// # Errors
+    /// Where a number of the law is not finite.
+    fn new(law: &dyn ContactLaw, place: Place, delta: f64) -> Result<Self, String> {
+        let at = law.at(&place, delta);
+        let given = [at.force, at.tangent, at.by_raceway, at.by_element];
+        if given.iter().chain([&at.energy]).any(|x| !x.is_finite()) {
+            return Err(format!("not finite at {place:?}, delta = {delta} m: {at:?}"));
+        }
+        let turned = |raceway: f64, element: f64| {
+            let (on_raceway, on_element) = (place.on_raceway + raceway, place.on_element + element);
+            law.at(&Place { on_raceway, on_element, ..place }, delta).energy
+        };
+        let (h, angle) = (1e-4 * delta.abs(), 1e-6);
+        let [before, after] = [-h, h].map(|h| law.at(&place, delta + h));
+        let found = [
+            (after.energy - before.energy) / (2.0 * h),
+            (after.force - before.force) / (2.0 * h),
+            (turned(angle, 0.0) - turned(-angle, 0.0)) / (2.0 * angle),
+            (turned(0.0, angle) - turned(0.0, -angle)) / (2.0 * angle),
+        ];
+        Ok(Self { place, delta, given, found })
+    }
+
+    fn size(&self, n: usize) -> f64 {
+        self.given[n].abs().max(self.found[n].abs())
+    }
+
+    /// Relative to the size.
+    fn error(&self, n: usize) -> f64 {
+        (self.given[n] - self.found[n]).abs() / self.size(n)
+    }
+}
+
 /// Holds a law's derivatives against differences of its energy, and the tangent against those of its force, over bearings of so many rows and elements.
 ///
 /// # Errors
 /// Which derivative is wrong, where, and both numbers.
 pub fn check(law: &dyn ContactLaw, counts: (usize, usize)) -> Result<(), String> {
-    // Name, unit, and by how much more than 0 a derivative counts (of the largest one).
     const NAMES: [&str; 4] = ["force (N)", "tangent (N/m)", "by_raceway (N m)", "by_element (N m)"];
-    let mut worst: [(f64, String); 4] = std::array::from_fn(|_| (0.0, String::new()));
-    let mut counted = [[0_usize; 2]; 4];
-    let mut largest = [0.0_f64; 4];
-    for pass in 0..2 {
-        for (side, k) in SIDES.into_iter().flat_map(|side| (0..SAMPLES).map(move |k| (side, k))) {
-            let (place, delta) = (Place::sample(side, k, counts), DEFORMATIONS[k % DEFORMATIONS.len()]);
-            let at = law.at(&place, delta);
-            let given = [at.force, at.tangent, at.by_raceway, at.by_element];
-            if given.iter().chain([&at.energy]).any(|x| !x.is_finite()) {
-                return Err(format!("not finite at {place:?}, delta = {delta} m: {at:?}"));
-            }
-            let turned = |raceway: f64, element: f64| {
-                let (on_raceway, on_element) = (place.on_raceway + raceway, place.on_element + element);
-                law.at(&Place { on_raceway, on_element, ..place }, delta).energy
-            };
-            let (h, angle) = (1e-4 * delta.abs(), 1e-6);
-            let [before, after] = [-h, h].map(|h| law.at(&place, delta + h));
-            let found = [
-                (after.energy - before.energy) / (2.0 * h),
-                (after.force - before.force) / (2.0 * h),
-                (turned(angle, 0.0) - turned(-angle, 0.0)) / (2.0 * angle),
-                (turned(0.0, angle) - turned(0.0, -angle)) / (2.0 * angle),
-            ];
-            for (n, (given, found)) in given.into_iter().zip(found).enumerate() {
-                let size = given.abs().max(found.abs());
-                if pass == 0 {
-                    largest[n] = largest[n].max(size);
-                } else if size > 1e-3 * largest[n] {
-                    let error = (given - found).abs() / size;
-                    counted[n][0] += 1;
-                    counted[n][1] += usize::from(error > MISSED.0);
-                    if error > worst[n].0 {
-                        worst[n] = (
-                            error,
-                            format!("{given:.4e} given, {found:.4e} by differences, at {place:?}, delta = {delta} m"),
-                        );
-                    }
-                }
-            }
-        }
-    }
-    for (name, ([all, wrong], (_, words))) in NAMES.iter().zip(counted.into_iter().zip(worst)) {
-        if wrong as f64 > MISSED.1 * all as f64 {
-            return Err(format!("{name} is not the derivative at {wrong} of {all} samples: {words}"));
+    let all = SIDES.into_iter().flat_map(|side| (0..SAMPLES).map(move |k| (side, k)));
+    let sampled = |(side, k)| Sampled::new(law, Place::sample(side, k, counts), DEFORMATIONS[k % DEFORMATIONS.len()]);
+    let samples: Vec<Sampled> = all.map(sampled).collect::<Result<_, _>>()?;
+    for (n, name) in NAMES.into_iter().enumerate() {
+        let largest = samples.iter().map(|s| s.size(n)).fold(0.0, f64::max);
+        let counted: Vec<&Sampled> = samples.iter().filter(|s| s.size(n) > 1e-3 * largest).collect();
+        let wrong = counted.iter().filter(|s| s.error(n) > MISSED.0).count();
+        let worst = counted.iter().max_by(|a, b| a.error(n).total_cmp(&b.error(n)));
+        if let Some(Sampled { place, delta, given, found }) = worst
+            && wrong as f64 > MISSED.1 * counted.len() as f64
+        {
+            return Err(format!(
+                "{name} is not the derivative at {wrong} of {} samples: {:.4e} given, {:.4e} by differences, at {place:?}, delta = {delta} m",
+                counted.len(),
+                given[n],
+                found[n]
+            ));
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! Angles of a roller that decide where it meets damage.
 
+use crate::contact::Side;
 use crate::lanes::functions::ROUNDER;
 use std::f64::consts::{PI, TAU};
 
@@ -27,6 +28,18 @@ pub struct Angles {
     pub spin: f64,
     /// W_i.
     pub ring: f64,
+}
+
+impl Angles {
+    /// Where the contact on `side` is on the raceway and on the rolling element, rad: angles fixed to each of them, 0 where a defect with `center_deg = 0` lies.
+    #[inline]
+    pub fn on_surfaces(&self, side: Side) -> [f64; 2] {
+        let (ring, half_turn) = match side {
+            Side::Inner => (self.ring, PI),
+            Side::Outer => (0.0, 0.0),
+        };
+        [self.orbit - ring, self.orbit + half_turn - self.spin]
+    }
 }
 
 #[cfg(test)]

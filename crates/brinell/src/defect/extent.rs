@@ -26,30 +26,15 @@ pub struct Extent {
 impl Extent {
     /// Of a shape; `depth` (m) is the defect's.
     pub fn of(shape: &Shape, depth: f64) -> Self {
-        const CELLS: u32 = 20_000;
         let (first, last) = shape.arc();
-        let ds = (last - first) / f64::from(CELLS);
-        let (mut widest, mut area, mut volume, mut deepest) = (0.0_f64, 0.0, 0.0, 0.0_f64);
-        for k in 0..CELLS {
-            let s = first + (f64::from(k) + 0.5) * ds;
-            let width = shape.damaged_length(s);
-            widest = widest.max(width);
-            area += width * ds;
-            let depth = shape.own_depth(s).unwrap_or(depth);
-            deepest = deepest.max(depth);
-            volume += width * ds * depth;
-        }
-        // The extremes of a profile may be at its ends.
-        for s in [first, last] {
-            let inside = s + 1e-9 * (0.5 * (first + last) - s);
-            widest = widest.max(shape.damaged_length(inside));
-            deepest = deepest.max(shape.own_depth(inside).unwrap_or(depth));
-        }
-        if let Shape::DepthMap(grid) = shape {
-            let covered = grid.covered();
-            (area, volume, widest) = (covered.area, covered.volume, covered.widest);
-            deepest = grid.extremes().0;
-        }
+        let Sums { widest, area, volume, deepest } = match shape {
+            Shape::DepthMap(grid) => {
+                let covered = grid.covered();
+                let (widest, deepest) = (covered.widest, grid.extremes().0);
+                Sums { widest, area: covered.area, volume: covered.volume, deepest }
+            }
+            _ => Sums::by_midpoints(shape, depth),
+        };
         let width = match shape {
             Shape::Outline(outline) => outline.heights().1 - outline.heights().0,
             Shape::DepthMap(grid) => grid.heights().1 - grid.heights().0,
@@ -66,5 +51,36 @@ impl Extent {
             deepest,
             raised: shape.raised(),
         }
+    }
+}
+
+/// What is summed over a shape, SI.
+struct Sums {
+    widest: f64,
+    area: f64,
+    volume: f64,
+    deepest: f64,
+}
+
+impl Sums {
+    fn by_midpoints(shape: &Shape, depth: f64) -> Self {
+        const CELLS: u32 = 20_000;
+        let (first, last) = shape.arc();
+        let ds = (last - first) / f64::from(CELLS);
+        let (mut widest, mut area, mut volume, mut deepest) = (0.0_f64, 0.0, 0.0, 0.0_f64);
+        for k in 0..CELLS {
+            let s = first + (f64::from(k) + 0.5) * ds;
+            let (width, depth) = (shape.damaged_length(s), shape.own_depth(s).unwrap_or(depth));
+            (widest, deepest) = (widest.max(width), deepest.max(depth));
+            area += width * ds;
+            volume += width * ds * depth;
+        }
+        // The extremes of a profile may be at its ends.
+        for s in [first, last] {
+            let inside = s + 1e-9 * (0.5 * (first + last) - s);
+            widest = widest.max(shape.damaged_length(inside));
+            deepest = deepest.max(shape.own_depth(inside).unwrap_or(depth));
+        }
+        Self { widest, area, volume, deepest }
     }
 }

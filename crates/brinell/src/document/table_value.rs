@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
-use crate::scenario::{DefectTable, TableData, TableValues};
+use crate::scenario::{DefectTable, OfList, TableData, TableValues};
 
 const S: Spec = key("s_mm", "s, rising");
 const DELTA: Spec = key("delta_um", "delta, rising");
@@ -31,13 +31,12 @@ impl ValueType for DefectTable {
         };
         let names: Vec<&str> = table.keys().map(String::as_str).collect();
         let has = |value: &Spec| names.len() == 3 && [&S, &DELTA, value].iter().all(|spec| names.contains(&spec.name));
-        let Some(value) = [&DELTA_EFF, &ENERGY].into_iter().find(|value| has(value)) else {
+        let kinds: [(&Spec, OfList); 2] = [(&DELTA_EFF, TableValues::DeltaEffUm), (&ENERGY, TableValues::EnergyJ)];
+        let Some((value, of)) = kinds.into_iter().find(|(value, _)| has(value)) else {
             return Err(Misfit::new(format!("keys {} make no table", names.join(", ")), ALLOWED));
         };
         let list = |spec: &Spec| read_under::<Vec<f64>>(&table[spec.name].node, spec);
-        let values = TableValues::named(value.name, list(value)?);
-        let Some(values) = values else { return Err(wrong_type::<Self>(node, spec)) };
-        let data = TableData { s_mm: list(&S)?, delta_um: list(&DELTA)?, values };
+        let data = TableData { values: of(list(value)?), s_mm: list(&S)?, delta_um: list(&DELTA)? };
         data.check().map_err(|fault| Misfit::new(fault.message, fault.allowed))?;
         Ok(Self::Read(data))
     }

@@ -6,7 +6,6 @@ use crate::contact::{self, ContactLaw, Elastic, Place};
 use crate::defect::{Angles, Defect, Defects, Met, Side, ecl};
 use crate::scenario::Law;
 use crate::slices::{Approach, Healthy, Slices};
-use std::f64::consts::PI;
 
 /// The law of the contacts on one side that the scenario names.
 #[derive(Debug, Clone, Copy)]
@@ -56,18 +55,8 @@ pub(super) fn by_law(
     angles: &Angles,
     delta: f64,
 ) -> Elastic {
-    let (ring, half_turn) = match side {
-        Side::Inner => (angles.ring, PI),
-        Side::Outer => (0.0, 0.0),
-    };
-    let place = Place {
-        side,
-        row: layout.row(slot),
-        element: layout.roller(slot),
-        on_raceway: angles.orbit - ring,
-        on_element: angles.orbit + half_turn - angles.spin,
-    };
-    law.at(&place, delta)
+    let [on_raceway, on_element] = angles.on_surfaces(side);
+    law.at(&Place { side, row: layout.row(slot), element: layout.roller(slot), on_raceway, on_element }, delta)
 }
 
 impl ScenarioLaw<'_> {
@@ -155,10 +144,15 @@ impl Model {
         }
     }
 
+    /// The law of the user's own, and the contact on `side` that statics and the longest step are for.
+    fn own_law(&self, side: Side) -> Option<(&dyn ContactLaw, &Place)> {
+        Some((&**self.custom.contact.as_ref()?, &self.usual.as_ref()?[side as usize]))
+    }
+
     /// Deformation at the roller's middle of a healthy contact under `force` (N), m.
     pub fn deflection(&self, side: Side, force: f64) -> f64 {
-        if let (Some(law), Some(usual)) = (&self.custom.contact, &self.usual) {
-            return contact::deflection(&**law, &usual[side as usize], force);
+        if let Some((law, usual)) = self.own_law(side) {
+            return contact::deflection(law, usual, force);
         }
         let even = self.contact(side).deflection(force);
         match self.profiled() {
@@ -170,8 +164,8 @@ impl Model {
     /// dQ/d(delta) of a healthy contact under `force` (N), N/m.
     pub fn stiffness_at(&self, side: Side, force: f64) -> f64 {
         let (law, delta) = (self.contact(side), self.deflection(side, force));
-        if let (Some(own), Some(usual)) = (&self.custom.contact, &self.usual) {
-            return own.at(&usual[side as usize], delta).tangent;
+        if let Some((own, usual)) = self.own_law(side) {
+            return own.at(usual, delta).tangent;
         }
         match self.profiled() {
             Some(slices) => slices.carry(law, &Approach::pressed(delta)).stiffness[0],

@@ -48,24 +48,27 @@ impl Model {
             let Some(DefectTable::Read(data)) = &given.table else { continue };
             let fault =
                 |value: String, requirement| ModelError { key: format!("defects.{k}.table"), value, requirement };
-            for side in SIDES {
-                if !self.defects[k].meets_side(side) {
-                    continue;
+            let in_m = |list: &[f64], unit: f64| -> Vec<f64> { list.iter().map(|x| unit * x).collect() };
+            let (at, by) = (in_m(&data.s_mm, 1e-3), in_m(&data.delta_um, 1e-6));
+            let made = |delta_eff_um: &[f64]| {
+                let table = Table::from_grid(&at, &by, &in_m(delta_eff_um, 1e-6));
+                table.map(Arc::new).map_err(|error| fault(error.to_string(), "a full grid whose s and delta rise"))
+            };
+            match &data.values {
+                TableValues::DeltaEffUm(list) => {
+                    let table = made(list)?;
+                    SIDES.into_iter().for_each(|side| self.defects[k].use_table_at(side, table.clone()));
                 }
-                let values = match &data.values {
-                    TableValues::DeltaEffUm(list) => list.clone(),
-                    TableValues::EnergyJ(list) => {
+                // Each side's healthy contact stores another energy.
+                TableValues::EnergyJ(list) => {
+                    for side in SIDES.into_iter().filter(|side| self.defects[k].meets_side(*side)).collect::<Vec<_>>() {
                         let values = effective(&self.healthy(side), &data.delta_um, list);
-                        let alike = TableData { values: TableValues::DeltaEffUm(values.clone()), ..data.clone() };
+                        let alike = TableData { values: TableValues::DeltaEffUm(values), ..data.clone() };
                         alike.check().map_err(|error| fault(error.to_string(), OF_ENERGIES))?;
-                        values
+                        let table = made(alike.values.list())?;
+                        self.defects[k].use_table_at(side, table);
                     }
-                };
-                let in_m = |list: &[f64], unit: f64| -> Vec<f64> { list.iter().map(|x| unit * x).collect() };
-                let (at, by) = (in_m(&data.s_mm, 1e-3), in_m(&data.delta_um, 1e-6));
-                let table = Table::from_grid(&at, &by, &in_m(&values, 1e-6))
-                    .map_err(|error| fault(error.to_string(), "a full grid whose s and delta rise"))?;
-                self.defects[k].use_table_at(side, Arc::new(table));
+                }
             }
         }
         Ok(())

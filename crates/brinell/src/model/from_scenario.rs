@@ -198,18 +198,16 @@ impl Model {
             if let Err(words) = contact::check(&**law, counts) {
                 return refuse("contact law", words, "finite, with derivatives that are those of its energy");
             }
-            let usual = contact::usual(&**law, counts);
-            model.usual = Some(usual);
-            let damping = SIDES.map(|side| model.contact(side).damping);
+            model.usual = Some(contact::usual(&**law, counts));
+        }
+        model.custom = custom;
+        if model.usual.is_some() {
             let spring = |side: Side, force: f64| {
-                let place = &usual[side as usize];
-                let delta = contact::deflection(&**law, place, force);
-                let tangent = law.at(place, delta).tangent;
-                [tangent, damping[side as usize].of(tangent, delta)]
+                let (tangent, delta) = (model.stiffness_at(side, force), model.deflection(side, force));
+                [tangent, model.contact(side).damping.of(tangent, delta)]
             };
             model.stable_steps = StableSteps::new(spring, model.inertia.roller);
         }
-        model.custom = custom;
         Ok(model)
     }
 }

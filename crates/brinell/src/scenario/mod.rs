@@ -14,6 +14,7 @@ pub(crate) use choices::words;
 pub use choices::*;
 pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
 pub use sensor::{PathMode, Range, Sensor};
+pub(crate) use table::OfList;
 pub use table::{TableData, TableFault, TableValues};
 #[doc(hidden)]
 pub use unset::Unset;

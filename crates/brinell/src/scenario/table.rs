@@ -25,18 +25,15 @@ pub enum TableValues {
     EnergyJ(Vec<f64>),
 }
 
-impl TableValues {
-    /// Those of a column, where one is called so.
-    pub(crate) fn named(name: &str, values: Vec<f64>) -> Option<Self> {
-        let make = [Self::DeltaEffUm, Self::EnergyJ][VALUES.iter().position(|column| *column == name)?];
-        Some(make(values))
-    }
+/// One of [`TableValues`].
+pub(crate) type OfList = fn(Vec<f64>) -> TableValues;
 
+impl TableValues {
     /// Name of their column.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::DeltaEffUm(_) => VALUES[0],
-            Self::EnergyJ(_) => VALUES[1],
+            Self::DeltaEffUm(_) => VALUES[0].0,
+            Self::EnergyJ(_) => VALUES[1].0,
         }
     }
 
@@ -72,7 +69,7 @@ impl std::error::Error for TableFault {}
 
 const AXES: [&str; 2] = ["s_mm", "delta_um"];
 /// The third column is one of these.
-const VALUES: [&str; 2] = ["delta_eff_um", "energy_j"];
+const VALUES: [(&str, OfList); 2] = [("delta_eff_um", TableValues::DeltaEffUm), ("energy_j", TableValues::EnergyJ)];
 /// Nodes of a table at most: a scenario that has them written out still reads (`document/source.rs`).
 const MOST_NODES: usize = 400_000;
 /// Shares of delta by which delta_eff may differ at a table's ends: within it a table's nodes are known (section 19).
@@ -100,7 +97,7 @@ impl TableData {
         let needed = "a line with the columns s_mm,delta_um,delta_eff_um (or energy_j) comes first";
         let (number, head) = lines.next().ok_or_else(|| fault(None, "the file is empty", needed))?;
         let names: Vec<&str> = head.split(',').map(|name| name.trim().trim_matches('"')).collect();
-        let values = *VALUES.iter().find(|column| names.contains(column)).unwrap_or(&VALUES[0]);
+        let (values, of) = *VALUES.iter().find(|(column, _)| names.contains(column)).unwrap_or(&VALUES[0]);
         let columns = [AXES[0], AXES[1], values];
         let mut places = [0; 3];
         for (place, column) in places.iter_mut().zip(columns) {
@@ -119,8 +116,7 @@ impl TableData {
             return Err(fault(Some(number), format!("{} nodes", rows.len()), format!("at most {MOST_NODES} of them")));
         }
         let [s_mm, delta_um, list] = on_grid(&rows)?;
-        let values = if values == VALUES[1] { TableValues::EnergyJ(list) } else { TableValues::DeltaEffUm(list) };
-        let table = TableData { s_mm, delta_um, values };
+        let table = TableData { s_mm, delta_um, values: of(list) };
         table.check()?;
         Ok(table)
     }

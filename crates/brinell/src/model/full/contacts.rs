@@ -298,7 +298,7 @@ fn slots(first: usize, mut candidates: u8) -> impl Iterator<Item = usize> {
 
 /// Angles at which a contact meets damage, seen from its ring's centre.
 #[inline]
-fn met_at(model: &Model, (q, ring): (&[f64], f64), contacts: &Contacts, slot: usize) -> Angles {
+pub(super) fn met_at(model: &Model, (q, ring): (&[f64], f64), contacts: &Contacts, slot: usize) -> Angles {
     let l = &model.layout;
     Angles { orbit: q[l.theta() + slot] + contacts.lean(slot), spin: q[l.phi() + slot], ring }
 }

@@ -1,10 +1,10 @@
 //! Waviness of the surfaces in contact (section 23): how far it lets them apart, and how its slopes push.
 
+use super::contacts::met_at;
 use crate::defect::{SIDES, Side};
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
 use crate::waviness::{Wave, Waviness};
-use std::f64::consts::PI;
 
 /// What is pressed at each contact: delta less the waviness of both surfaces there, with its slopes.
 pub(super) fn waviness(model: &Model, (q, ring_angle): (&[f64], f64), ws: &mut Workspace) {
@@ -22,16 +22,11 @@ pub(super) fn waviness(model: &Model, (q, ring_angle): (&[f64], f64), ws: &mut W
                 contacts.wave_slope[1][slot] = 0.0;
                 continue;
             }
-            let alpha = q[l.theta() + slot] + contacts.lean(slot);
-            let spin = q[l.phi() + slot];
-            let (ring, half_turn) = match side {
-                Side::Inner => (ring_angle, PI),
-                Side::Outer => (0.0, 0.0),
-            };
+            let [on_raceway, on_element] = met_at(model, (q, ring_angle), contacts, slot).on_surfaces(side);
             let at = |wave: Option<&Wave>, u: f64| wave.map_or([0.0; 2], |wave| wave.at(u));
-            let raceway = at(raceway(waves, l.row(slot), side), alpha - ring);
+            let raceway = at(raceway(waves, l.row(slot), side), on_raceway);
             let element = waves.elements.get(l.row(slot) * l.rollers_per_row + l.roller(slot));
-            let element = at(element, alpha + half_turn - spin);
+            let element = at(element, on_element);
             contacts.pressed[slot] = delta - (raceway[0] + element[0]);
             contacts.wave_slope[0][slot] = raceway[1];
             contacts.wave_slope[1][slot] = element[1];
