@@ -144,7 +144,7 @@ def analyze(
     Raises
     ------
     ValueError
-        Where a name or a unit is not known, a sensitivity does not fit the unit, or a frequency of the supply is out of its range.
+        Where the speed or the bearing is missing, a name or a unit is not known, a sensitivity does not fit the unit, or a value is out of its range.
     SignalError
         Where the signal is too short, its rate too low, or a sample not finite.
 

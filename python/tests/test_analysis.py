@@ -48,14 +48,24 @@ def test_prop_any_array_of_numbers_will_do():
         lambda x: brinell.spectrogram(x, rate_hz=10.0, unit="g", length=0),
         lambda x: brinell.kurtogram(0.0 * x, rate_hz=10.0),
         lambda x: brinell.indicators(x, rate_hz=10.0, unit="g", block_s=0.0),
-        lambda x: brinell.analyze(x, rate_hz=10.0, unit="g", speed_rpm=0.0, bearing="6205"),
         lambda x: brinell.analyze(x, rate_hz=10.0, unit="g", speed_rpm=1800.0, bearing="6205"),
-        lambda x: brinell.analyze(x, rate_hz=1e4, unit="g", speed_rpm=1800.0),
     ],
 )
 def test_prop_what_cannot_be_analysed_is_an_error(call):
     with pytest.raises(brinell.SignalError):
         call(np.sin(np.arange(1000.0)))
+
+
+def test_prop_a_speed_or_a_bearing_that_is_missing_is_a_wrong_argument():
+    x = np.sin(np.arange(1000.0))
+    for given, words in (
+        ({"speed_rpm": 0.0, "bearing": "6205"}, "expected a speed other than 0; give speed_rpm"),
+        ({"bearing": "6205"}, "speed_rpm"),
+        ({"speed_rpm": 1800.0}, "rollers, pitch_mm and diameter_mm"),
+    ):
+        with pytest.raises(ValueError, match=words) as caught:
+            brinell.analyze(x, rate_hz=1e4, unit="g", **given)
+        assert not isinstance(caught.value, brinell.SignalError)
 
 
 def outer_race(seconds: float = 2.0) -> np.ndarray:

@@ -56,9 +56,9 @@ def test_prop_energies_of_a_damaged_contact_are_a_law():
 
     def run(share):
         table = {"s_mm": s, "delta_um": delta, "energy_j": np.outer(share, energy).ravel()}
-        return brinell.simulate(scenario.replace({"defects.0.table": table}))["sensor_ax.rms"]
+        return brinell.simulate(scenario.replace({"defects.0.table": table})).quantities["sensor_ax.rms"]
 
-    healthy = brinell.simulate(scenario.replace({"defects": []}))["sensor_ax.rms"]
+    healthy = brinell.simulate(scenario.replace({"defects": []})).quantities["sensor_ax.rms"]
     assert run(np.ones(41)) == pytest.approx(healthy, rel=0.1)
     assert run(np.clip(np.abs(s) / 1.5 - 1.0 / 3.0, 0.4, 1.0)) > 1.5 * healthy
 
