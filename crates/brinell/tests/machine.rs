@@ -1,0 +1,134 @@
+//! Bearings in a machine, section 25.
+
+use brinell::accuracy::settings;
+use brinell::machine::{Machine, MachineMotion, Mount, Structure};
+use brinell::model::{Model, Motion, Power};
+use brinell::scenario::{Accuracy, LoadOn, ModelKind, Scenario};
+use brinell::solver::{Settings, Stepper, System};
+use brinell::start;
+use brinell_shaft::{Beam, Disc, Material, Part, Port, Reduced, reduce};
+
+const STEEL: Material = Material { youngs_modulus: 211e9, shear_modulus: 81.2e9, density: 7810.0 };
+const LENGTH: f64 = 0.4;
+/// Seats.
+const AT: [f64; 2] = [0.1, 0.3];
+
+/// A shaft of 30 mm with a disc of 2 kg in the middle and the inner rings of `s` on it: rigid, or elastic.
+fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
+    let model = Model::new(s).unwrap();
+    let part = Part { length: LENGTH, outer_diameter: 0.03, inner_diameter: 0.0 };
+    let mut discs = vec![Disc { at: 0.5 * LENGTH, mass: 2.0, diametral_inertia: 3e-3, polar_inertia: 5e-3 }];
+    for at in AT {
+        let (diametral_inertia, polar_inertia) =
+            model.tilt.as_ref().map_or((0.0, 0.0), |t| (t.inner.inertia, t.inner.polar_inertia));
+        discs.push(Disc { at, mass: model.inertia.inner_ring, diametral_inertia, polar_inertia });
+    }
+    let beam = Beam::new(&STEEL, &[part], (&discs, &[]), &AT, 0.02).unwrap();
+    let ports = AT.map(|z| beam.port(z).unwrap());
+    let reduced = reduce(&beam, 2000.0, &ports, 0.005, is_rigid).unwrap();
+    (beam, reduced)
+}
+
+/// That shaft on two bearings `s`, whose outer rings are on their own supports, under `load` in the middle.
+fn on_two(scenarios: [&Scenario; 2], is_rigid: bool, load: [f64; 2], unbalance: f64) -> Machine {
+    let (beam, reduced) = shaft(scenarios[0], is_rigid);
+    let all =
+        Port(&beam.equations.mass * nalgebra::DVector::from_fn(beam.equations.size(), |k, _| f64::from(k % 2 == 0)));
+    let mut structure = Structure::shaft(&reduced, &reduced.port(&all));
+    let seat = |z: f64| {
+        let (shift, tilt) = (beam.port(z).unwrap(), beam.tilt_port(z).unwrap());
+        Structure::seat_of_shaft(&reduced.port(&shift), &reduced.port(&tilt))
+    };
+    structure.add_load(&seat(0.5 * LENGTH), load);
+    structure.add_unbalance(&seat(0.5 * LENGTH), unbalance, 0.3);
+    let bearings = [0, 1].map(|k: usize| {
+        let mount = Mount { structure: 0, seat: seat(AT[k]) };
+        (Model::new(scenarios[k]).unwrap(), [Some(mount), None])
+    });
+    Machine::new(bearings.into(), vec![structure], Vec::new())
+}
+
+/// A deep-groove ball bearing whose load comes from the shaft.
+fn of_ball() -> Scenario {
+    let text = "[bearing]\npreset = \"6205\"\n[operation]\nspeed_rpm = 1800\nload_n = [0, -1]\nload_on = \"inner-ring\"\ngravity_m_per_s2 = [0, -9.81]\n[support]\ninner_stiffness_n_per_m = 0\ninner_damping_ns_per_m = 0\nouter_stiffness_n_per_m = 5e7\nouter_damping_ns_per_m = 500\n";
+    let mut s = Scenario::from_toml(text).unwrap_or_else(|e| panic!("{e:?}"));
+    s.operation.load_n = [0.0; 2];
+    s
+}
+
+fn rectangle_on(s: &Scenario) -> Scenario {
+    let mut s = s.clone();
+    s.defects = crate::common::cases::rectangle().defects;
+    s.defects[0].center_deg = -90.0;
+    s
+}
+
+/// Steps to `t`, and the sum of the flows.
+fn run<S: System<Flow = Power>>(system: &mut S, settings: Settings, y: &[f64], t: f64) -> (Stepper<Power>, Power) {
+    let mut stepper = Stepper::new(system, settings, 0.0, y);
+    let mut flows = Power::default();
+    while stepper.t() < t {
+        flows += stepper.step(system).unwrap();
+    }
+    (stepper, flows)
+}
+
+/// One bearing with half the shaft on its inner ring is either of two under a rigid shaft.
+#[test]
+fn analytic_two_bearings_under_a_rigid_shaft_are_one_under_half_the_load() {
+    let s = of_ball();
+    let machine = on_two([&s, &s], true, [300.0, -800.0], 0.0);
+    let (beam, _) = shaft(&s, true);
+    let mut half = s.clone();
+    half.operation.load_n = [150.0, -400.0];
+    half.operation.load_on = LoadOn::InnerRing;
+    half.bearing.inner_ring_mass_kg = 0.5 * beam.mass();
+    let model = Model::new(&half).unwrap();
+    let t = 0.02;
+    // Steps of one length, below the limit of both: a step of another length has another error.
+    let equal = |of: Settings| Settings { tolerance: 1e9, max_step: 5e-7, ..of };
+    let (one, _) =
+        run(&mut Motion::new(&model), equal(settings(&model, Accuracy::Standard)), &start::state(&model).unwrap(), t);
+    let mut motion = MachineMotion::new(&machine);
+    let (two, _) = run(&mut motion, equal(machine.settings(Accuracy::Standard)), &machine.initial(), t);
+    assert_eq!(one.work(), two.work());
+    let (mut of_one, mut of_two) = (vec![0.0; 2 * model.layout.dof()], vec![0.0; 2 * machine.dof()]);
+    one.interpolate(t, &mut of_one);
+    two.interpolate(t, &mut of_two);
+    for k in 0..2 {
+        let first = machine.bearing(k);
+        for ring in [model.layout.inner(), model.layout.outer()] {
+            for at in [ring, ring + 1] {
+                let (one, two) = (of_one[at], of_two[first + at]);
+                assert!((one - two).abs() < 1e-9 * of_one[model.layout.inner() + 1].abs(), "{k}: {one:e}, {two:e}");
+            }
+        }
+    }
+}
+
+/// Energy and momentum of an elastic shaft with unbalance on a damaged and a healthy bearing.
+#[test]
+fn analytic_energy_and_momentum_of_a_machine_close() {
+    let healthy = of_ball();
+    let damaged = rectangle_on(&healthy);
+    let mut tilting = crate::common::cases::healthy();
+    tilting.simulation.model = ModelKind::Tilting;
+    for (pair, unbalance) in [([&damaged, &healthy], 2e-5)] {
+        let machine = on_two(pair, false, [0.0, -900.0], unbalance);
+        let mut motion = MachineMotion::new(&machine);
+        let y = machine.initial();
+        let dof = machine.dof();
+        let mut a = vec![0.0; dof];
+        motion.accelerations(0.0, &y, &mut a);
+        let before = motion.energy(0.0, &y);
+        let (stepper, flows) = run(&mut motion, machine.settings(Accuracy::Reference), &y, 0.06);
+        let (t, y) = (stepper.t(), stepper.y().to_vec());
+        motion.accelerations(t, &y, &mut a);
+        let after = motion.energy(t, &y);
+        let turnover = flows.load.abs() + flows.drive.abs() + flows.dissipated();
+        let left = after.total() - before.total() - flows.net();
+        assert!(left.abs() < 1e-5 * turnover, "{left:e} of {turnover:e}");
+        let imbalance = motion.imbalance(t, &y, &a);
+        assert!(imbalance < 1e-12, "{imbalance:e}");
+    }
+}
