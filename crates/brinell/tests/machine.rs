@@ -2,8 +2,8 @@
 
 use brinell::accuracy::settings;
 use brinell::machine::{Machine, MachineMotion, Mount, Structure};
-use brinell::model::{Model, Motion, Power};
-use brinell::scenario::{Accuracy, LoadOn, ModelKind, Scenario};
+use brinell::model::{Model, Motion, Power, Support};
+use brinell::scenario::{Accuracy, LoadOn, Scenario};
 use brinell::solver::{Settings, Stepper, System};
 use brinell::start;
 use brinell_shaft::{Beam, Disc, Material, Part, Port, Reduced, reduce};
@@ -12,6 +12,8 @@ const STEEL: Material = Material { youngs_modulus: 211e9, shear_modulus: 81.2e9,
 const LENGTH: f64 = 0.4;
 /// Seats.
 const AT: [f64; 2] = [0.1, 0.3];
+/// Mass and moment of inertia, kg and kg m^2.
+const HOUSING: (f64, f64) = (6.0, 0.05);
 
 /// A shaft of 30 mm with a disc of 2 kg in the middle and the inner rings of `s` on it: rigid, or elastic.
 fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
@@ -29,8 +31,8 @@ fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
     (beam, reduced)
 }
 
-/// That shaft on two bearings `s`, whose outer rings are on their own supports, under `load` in the middle.
-fn on_two(scenarios: [&Scenario; 2], is_rigid: bool, load: [f64; 2], unbalance: f64) -> Machine {
+/// That shaft on two bearings, whose outer rings are on their own supports or both in a rigid housing, under `load` in the middle.
+fn on_two(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [f64; 2], unbalance: f64) -> Machine {
     let (beam, reduced) = shaft(scenarios[0], is_rigid);
     let all =
         Port(&beam.equations.mass * nalgebra::DVector::from_fn(beam.equations.size(), |k, _| f64::from(k % 2 == 0)));
@@ -43,15 +45,21 @@ fn on_two(scenarios: [&Scenario; 2], is_rigid: bool, load: [f64; 2], unbalance: 
     structure.add_unbalance(&seat(0.5 * LENGTH), unbalance, 0.3);
     let bearings = [0, 1].map(|k: usize| {
         let mount = Mount { structure: 0, seat: seat(AT[k]) };
-        (Model::new(scenarios[k]).unwrap(), [Some(mount), None])
+        let housing = Mount { structure: 1, seat: Structure::seat_of_rigid(HOUSING, AT[k] - 0.5 * LENGTH) };
+        (Model::new(scenarios[k]).unwrap(), [Some(mount), in_housing.then_some(housing)])
     });
-    Machine::new(bearings.into(), vec![structure], Vec::new())
+    let springs = [(1e7, 500.0), (1e5, 5.0)].map(|(stiffness, damping)| Support { stiffness, damping });
+    let housing = Structure::rigid(HOUSING, (springs[0], springs[1]));
+    let structures = [structure].into_iter().chain(in_housing.then_some(housing));
+    Machine::new(bearings.into(), structures.collect(), Vec::new())
 }
 
-/// A deep-groove ball bearing whose load comes from the shaft.
-fn of_ball() -> Scenario {
-    let text = "[bearing]\npreset = \"6205\"\n[operation]\nspeed_rpm = 1800\nload_n = [0, -1]\nload_on = \"inner-ring\"\ngravity_m_per_s2 = [0, -9.81]\n[support]\ninner_stiffness_n_per_m = 0\ninner_damping_ns_per_m = 0\nouter_stiffness_n_per_m = 5e7\nouter_damping_ns_per_m = 500\n";
-    let mut s = Scenario::from_toml(text).unwrap_or_else(|e| panic!("{e:?}"));
+/// A bearing whose load comes from the shaft.
+fn of(preset: &str, model: &str) -> Scenario {
+    let text = format!(
+        "[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1800\nload_n = [0, -1]\nload_on = \"inner-ring\"\ngravity_m_per_s2 = [0, -9.81]\n[support]\ninner_stiffness_n_per_m = 0\ninner_damping_ns_per_m = 0\nouter_stiffness_n_per_m = 5e7\nouter_damping_ns_per_m = 500\n[simulation]\nmodel = \"{model}\"\n"
+    );
+    let mut s = Scenario::from_toml(&text).unwrap_or_else(|e| panic!("{e:?}"));
     s.operation.load_n = [0.0; 2];
     s
 }
@@ -76,8 +84,8 @@ fn run<S: System<Flow = Power>>(system: &mut S, settings: Settings, y: &[f64], t
 /// One bearing with half the shaft on its inner ring is either of two under a rigid shaft.
 #[test]
 fn analytic_two_bearings_under_a_rigid_shaft_are_one_under_half_the_load() {
-    let s = of_ball();
-    let machine = on_two([&s, &s], true, [300.0, -800.0], 0.0);
+    let s = of("6205", "full");
+    let machine = on_two([&s, &s], (true, false), [300.0, -800.0], 0.0);
     let (beam, _) = shaft(&s, true);
     let mut half = s.clone();
     half.operation.load_n = [150.0, -400.0];
@@ -90,7 +98,7 @@ fn analytic_two_bearings_under_a_rigid_shaft_are_one_under_half_the_load() {
     let (one, _) =
         run(&mut Motion::new(&model), equal(settings(&model, Accuracy::Standard)), &start::state(&model).unwrap(), t);
     let mut motion = MachineMotion::new(&machine);
-    let (two, _) = run(&mut motion, equal(machine.settings(Accuracy::Standard)), &machine.initial(), t);
+    let (two, _) = run(&mut motion, equal(machine.settings(Accuracy::Standard)), &machine.initial().unwrap(), t);
     assert_eq!(one.work(), two.work());
     let (mut of_one, mut of_two) = (vec![0.0; 2 * model.layout.dof()], vec![0.0; 2 * machine.dof()]);
     one.interpolate(t, &mut of_one);
@@ -109,26 +117,27 @@ fn analytic_two_bearings_under_a_rigid_shaft_are_one_under_half_the_load() {
 /// Energy and momentum of an elastic shaft with unbalance on a damaged and a healthy bearing.
 #[test]
 fn analytic_energy_and_momentum_of_a_machine_close() {
-    let healthy = of_ball();
+    let healthy = of("6205", "full");
     let damaged = rectangle_on(&healthy);
-    let mut tilting = crate::common::cases::healthy();
-    tilting.simulation.model = ModelKind::Tilting;
-    for (pair, unbalance) in [([&damaged, &healthy], 2e-5)] {
-        let machine = on_two(pair, false, [0.0, -900.0], unbalance);
+    let rollers = of("NU206", "tilting");
+    for (pair, in_housing) in
+        [([&damaged, &healthy], false), ([&healthy, &damaged], true), ([&rollers, &rollers], true)]
+    {
+        let machine = on_two(pair, (false, in_housing), [0.0, -900.0], 2e-5);
         let mut motion = MachineMotion::new(&machine);
-        let y = machine.initial();
+        let y = machine.initial().unwrap();
         let dof = machine.dof();
         let mut a = vec![0.0; dof];
         motion.accelerations(0.0, &y, &mut a);
-        let before = motion.energy(0.0, &y);
-        let (stepper, flows) = run(&mut motion, machine.settings(Accuracy::Reference), &y, 0.06);
+        let before = machine.energy(0.0, &y, &motion.parts);
+        let (stepper, flows) = run(&mut motion, machine.settings(Accuracy::Reference), &y, 0.04);
         let (t, y) = (stepper.t(), stepper.y().to_vec());
         motion.accelerations(t, &y, &mut a);
-        let after = motion.energy(t, &y);
+        let after = machine.energy(t, &y, &motion.parts);
         let turnover = flows.load.abs() + flows.drive.abs() + flows.dissipated();
         let left = after.total() - before.total() - flows.net();
         assert!(left.abs() < 1e-5 * turnover, "{left:e} of {turnover:e}");
-        let imbalance = motion.imbalance(t, &y, &a);
+        let imbalance = machine.imbalance((t, &y, &a), &motion.parts).unwrap();
         assert!(imbalance < 1e-12, "{imbalance:e}");
     }
 }

@@ -5,6 +5,7 @@ use crate::lanes::WIDTH;
 use crate::model::{Layout, Model};
 use crate::operation::Rotation;
 use crate::start;
+use crate::statics::NoBalance;
 
 /// Where a ring sits.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,9 +68,22 @@ pub struct Machine {
     pub ramp: f64,
     /// g, m/s^2.
     pub gravity: [f64; 2],
+    /// Longest step that every structure allows, s.
+    pub(super) longest: f64,
 }
 
 impl Machine {
+    /// One bearing on its own supports.
+    pub fn of_one(bearing: Model) -> Self {
+        Self::new(vec![(bearing, [None, None])], Vec::new(), Vec::new())
+    }
+
+    /// Whether it is one bearing and nothing else: its state is the bearing's own.
+    #[inline]
+    pub fn is_one_bearing(&self) -> bool {
+        self.bearings.len() == 1 && self.structures.is_empty()
+    }
+
     /// Of at least one bearing; all turn with the shaft of the first, and share its gravity and the ramp of its load.
     ///
     /// # Panics
@@ -92,12 +106,40 @@ impl Machine {
         let first_point = next(points.len());
         let of = &bearings[0].model;
         let (rotation, ramp, gravity) = (of.rotation.clone(), of.load.ramp, of.gravity);
-        Self { rotation, ramp, gravity, bearings, structures, points, firsts, first_point }
+        let limits = structures.iter().map(|structure: &Structure| structure.longest_step(rotation.max_speed()));
+        let longest = limits.fold(f64::INFINITY, f64::min);
+        Self { longest, rotation, ramp, gravity, bearings, structures, points, firsts, first_point }
+    }
+
+    /// Whether its outer ring is mounted rigidly, by forces that nobody knows.
+    pub fn is_held(&self) -> bool {
+        self.bearings.iter().any(|seated| seated.model.outer_ring_is_fixed())
+    }
+
+    /// Whether every position of another one is of the same kind.
+    pub fn is_laid_out_as(&self, other: &Self) -> bool {
+        let bearings = |of: &Self| of.bearings.iter().map(|seated| seated.model.layout).collect::<Vec<_>>();
+        bearings(self) == bearings(other) && self.firsts == other.firsts && self.first_point == other.first_point
     }
 
     /// Number of positions; the state has twice as many entries.
     pub fn dof(&self) -> usize {
         (self.first_point + self.points.len()).next_multiple_of(WIDTH)
+    }
+
+    /// Name of the body and coordinate behind a position.
+    pub fn name(&self, index: usize) -> String {
+        let of = |(k, seated): (usize, &Seated)| {
+            let name = seated.model.layout.name(index - seated.first, seated.model.element);
+            if self.is_one_bearing() { name } else { format!("{name} of bearing {}", k + 1) }
+        };
+        let bearing = self.bearings.iter().enumerate().find(|(_, seated)| seated.range().contains(&index));
+        let structure = self.firsts.iter().rposition(|first| *first <= index);
+        match (bearing.map(of), structure) {
+            (Some(name), _) => name,
+            (None, Some(0)) => format!("mode {} of the shaft", index - self.firsts[0] + 1),
+            (None, of) => format!("a mode of housing {}", of.unwrap_or_default()),
+        }
     }
 
     /// Position of a point that is looked at, from 0.
@@ -158,8 +200,15 @@ impl Machine {
         }
     }
 
-    /// The state at t = 0: every structure `start::INITIAL_OFFSET` off in X and in Y, and every bearing's elements rolling, or at rest.
-    pub fn initial(&self) -> Vec<f64> {
+    /// The state at t = 0: of one bearing by its start; of a machine every structure `start::INITIAL_OFFSET` off in X and in Y, and every
+    /// bearing's elements rolling, or at rest.
+    ///
+    /// # Errors
+    /// Where the start of one bearing is `equilibrium` and there is none.
+    pub fn initial(&self) -> Result<Vec<f64>, NoBalance> {
+        if self.is_one_bearing() {
+            return start::state(&self.bearings[0].model);
+        }
         let dof = self.dof();
         let mut y = vec![0.0; 2 * dof];
         for seated in &self.bearings {
@@ -175,6 +224,6 @@ impl Machine {
         let (q, v) = y.split_at_mut(dof);
         self.follow(q);
         self.follow(v);
-        y
+        Ok(y)
     }
 }

@@ -1,20 +1,22 @@
-//! Energy and momentum of a machine.
+//! Energy and momentum of a self.
 
-use super::assembly::{Mount, Seated};
-use super::motion::{MachineMotion, forces_on_ring};
+use super::assembly::{Machine, Mount, Seated};
+use super::motion::{Parts, forces_on_ring};
 use crate::model::{Energy, imbalance};
 
-impl MachineMotion<'_> {
+impl Machine {
     /// Energy of the whole at `t` and the state `y`, at which the last evaluation has to have been. The rings that sit on structures count
     /// there.
-    pub fn energy(&self, t: f64, y: &[f64]) -> Energy {
-        let machine = self.machine;
-        let (q, v) = y.split_at(machine.dof());
+    pub fn energy(&self, t: f64, y: &[f64], parts: &Parts) -> Energy {
+        if self.is_one_bearing() {
+            return Energy::of(&self.bearings[0].model, t, y, &parts.each[0].ws);
+        }
+        let (q, v) = y.split_at(self.dof());
         let mut whole = Energy::default();
-        for (seated, part) in machine.bearings.iter().zip(&self.parts) {
-            let model = &seated.model;
-            let mut of = Energy::of(model, t, &part.y, &part.ws);
-            let (own_q, own_v) = part.y.split_at(model.layout.dof());
+        for (k, (seated, part)) in self.bearings.iter().zip(&parts.each).enumerate() {
+            let (model, own) = (&seated.model, parts.state(self, k, y));
+            let mut of = Energy::of(model, t, own, &part.ws);
+            let (own_q, own_v) = own.split_at(model.layout.dof());
             for side in (0..2).filter(|side| seated.mounts[*side].is_some()) {
                 let (shift, tilt) = Seated::rings(&model.layout)[side];
                 let mass = [model.inertia.inner_ring, model.inertia.outer_ring][side];
@@ -31,48 +33,50 @@ impl MachineMotion<'_> {
             whole.supports += of.supports;
             whole.gravity += of.gravity;
         }
-        for (structure, &first) in machine.structures.iter().zip(&machine.firsts) {
+        for (structure, &first) in self.structures.iter().zip(&self.firsts) {
             let [kinetic, elastic] = structure.energy((&q[first..], &v[first..]));
             whole.kinetic += kinetic;
             whole.supports += elastic;
-            whole.gravity -= (0..2).map(|k| machine.gravity[k] * structure.momentum[k].of(&q[first..])).sum::<f64>();
+            whole.gravity -= (0..2).map(|k| self.gravity[k] * structure.momentum[k].of(&q[first..])).sum::<f64>();
         }
         whole
     }
 
-    /// The largest force (or torque) that appears from nowhere in any bearing, relative to those at play there ([`imbalance`]), or on any
-    /// structure; `a` are the accelerations at `t` and `y`.
-    pub fn imbalance(&self, t: f64, y: &[f64], a: &[f64]) -> f64 {
-        let machine = self.machine;
-        let of_bearings = machine
+    /// The largest force (or torque) that appears from nowhere in any bearing, relative to those at play there
+    /// ([`imbalance`](crate::model::imbalance)), or on any structure; `a` are the accelerations at `t` and `y`. `None` where it is not defined.
+    pub fn imbalance(&self, (t, y, a): (f64, &[f64], &[f64]), parts: &Parts) -> Option<f64> {
+        if self.is_one_bearing() {
+            return imbalance(&self.bearings[0].model, t, y, a, &parts.each[0].ws);
+        }
+        let of_bearings = self
             .bearings
             .iter()
-            .zip(&self.parts)
-            .filter_map(|(seated, part)| imbalance(&seated.model, t, &part.y, &part.a, &part.ws));
-        let of_structures = (0..machine.structures.len()).map(|k| self.of_structure(k, t, y, a));
-        of_bearings.chain(of_structures).fold(0.0, f64::max)
+            .zip(&parts.each)
+            .enumerate()
+            .map(|(k, (seated, part))| imbalance(&seated.model, t, parts.state(self, k, y), &part.a, &part.ws));
+        let of_structures = (0..self.structures.len()).map(|k| Some(self.of_nowhere(k, (t, y, a), parts)));
+        of_bearings.chain(of_structures).try_fold(0.0, |worst: f64, of| Some(worst.max(of?)))
     }
 
     /// Momentum of a structure changes by the forces on it alone.
-    fn of_structure(&self, k: usize, t: f64, y: &[f64], a: &[f64]) -> f64 {
-        let machine = self.machine;
-        let (q, v) = y.split_at(machine.dof());
-        let structure = &machine.structures[k];
-        let (q, v, a) = (machine.of_structure(k, q), machine.of_structure(k, v), machine.of_structure(k, a));
-        let mut driven = vec![0.0; machine.dof()];
-        machine.drive(t, &mut driven);
+    fn of_nowhere(&self, k: usize, (t, y, a): (f64, &[f64], &[f64]), parts: &Parts) -> f64 {
+        let (q, v) = y.split_at(self.dof());
+        let structure = &self.structures[k];
+        let (q, v, a) = (self.of_structure(k, q), self.of_structure(k, v), self.of_structure(k, a));
+        let mut driven = vec![0.0; self.dof()];
+        self.drive(t, &mut driven);
         let mut worst: f64 = 0.0;
         for along in 0..2 {
             let momentum = &structure.momentum[along];
             let mass = momentum.square();
             // What a rigid motion feels: no spring between the structure's own parts, and no gyroscopic term.
-            let pulls = machine.of_structure(k, &driven);
+            let pulls = self.of_structure(k, &driven);
             let outer: Vec<f64> = (0..structure.size())
                 .map(|k| pulls[k] - structure.squares[k] * q[k] - structure.dampers[k] * v[k])
                 .collect();
-            let mut sum = momentum.of(&outer) + mass * machine.gravity[along] - momentum.of(a);
-            let mut scale = momentum.of(a).abs() + mass * machine.gravity[along].abs() + momentum.of(&outer).abs();
-            for (seated, part) in machine.bearings.iter().zip(&self.parts) {
+            let mut sum = momentum.of(&outer) + mass * self.gravity[along] - momentum.of(a);
+            let mut scale = momentum.of(a).abs() + mass * self.gravity[along].abs() + momentum.of(&outer).abs();
+            for (seated, part) in self.bearings.iter().zip(&parts.each) {
                 for (side, mount) in seated.mounts.iter().enumerate() {
                     if !matches!(mount, Some(Mount { structure, .. }) if *structure == k) {
                         continue;

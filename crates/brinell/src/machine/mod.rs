@@ -11,5 +11,5 @@ mod motion;
 mod structure;
 
 pub use assembly::{Machine, Mount, Point, Seated};
-pub use motion::{MachineMotion, Part};
+pub use motion::{MachineMotion, Part, Parts};
 pub use structure::{Row, Seat, Structure};

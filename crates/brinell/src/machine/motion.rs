@@ -1,56 +1,58 @@
 //! A machine as the system that the solver integrates.
 
 use super::assembly::{Machine, Mount, Seated};
-use super::structure::Structure;
-use crate::accuracy::settings_together;
+use crate::accuracy::{self, settings_together};
+use crate::channel::Frame;
 use crate::lanes::Column;
 use crate::model::{Model, Power, Workspace};
 use crate::scenario::Accuracy;
-use crate::solver::{DAMPED_CONTACT, Settings, System};
+use crate::solver::{Settings, System};
+use std::borrow::BorrowMut;
 
 /// One bearing of the machine at the last evaluation.
 #[derive(Debug, Clone)]
 pub struct Part {
     /// Its contacts and flows.
     pub ws: Workspace,
-    /// Its own state, positions and rates.
-    pub y: Column,
+    /// Its own state, positions and rates; of a bearing on its own the machine's is that.
+    y: Column,
     /// Its accelerations, those of rings as if they were free with their mass.
-    pub a: Column,
+    pub(super) a: Column,
 }
 
-impl Part {
-    fn new(model: &Model) -> Self {
-        let dof = model.layout.dof();
-        Self { ws: Workspace::new(model), y: Column::new(2 * dof, 0.0), a: Column::new(dof, 0.0) }
-    }
-}
-
-/// A machine and what its last evaluation left.
-#[derive(Debug)]
-pub struct MachineMotion<'a> {
-    /// The machine.
-    pub machine: &'a Machine,
-    /// Its bearings.
-    pub parts: Vec<Part>,
-    /// Flows of energy of the whole.
+/// What an evaluation of a machine's equations of motion leaves behind; made once, used for a whole run.
+#[derive(Debug, Clone)]
+pub struct Parts {
+    /// Of each bearing.
+    pub each: Vec<Part>,
+    /// Flows of energy of the whole, W.
     pub power: Power,
-    /// Longest step that any structure allows, s.
-    longest: f64,
+}
+
+impl Parts {
+    /// For one machine.
+    pub fn new(machine: &Machine) -> Self {
+        let part = |seated: &Seated| {
+            let dof = seated.model.layout.dof();
+            Part { ws: Workspace::new(&seated.model), y: Column::new(2 * dof, 0.0), a: Column::new(dof, 0.0) }
+        };
+        Self { each: machine.bearings.iter().map(part).collect(), power: Power::default() }
+    }
+
+    /// The state of a bearing at the last evaluation, which was at `y`.
+    pub fn state<'a>(&'a self, machine: &Machine, k: usize, y: &'a [f64]) -> &'a [f64] {
+        if machine.is_one_bearing() { y } else { &self.each[k].y }
+    }
 }
 
 impl Machine {
     /// Settings of the solver.
     pub fn settings(&self, accuracy: Accuracy) -> Settings {
-        let total: f64 = self
-            .structures
-            .iter()
-            .map(|structure| {
-                let [x, y] = structure.pulled(self.gravity);
-                x.hypot(y)
-            })
-            .sum();
-        let each = total / self.bearings.len() as f64;
+        if self.is_one_bearing() {
+            return accuracy::settings(&self.bearings[0].model, accuracy);
+        }
+        let pulled = self.structures.iter().map(|structure| structure.pulled(self.gravity));
+        let each = pulled.map(|[x, y]| x.hypot(y)).sum::<f64>() / self.bearings.len() as f64;
         let bearings: Vec<_> = self.bearings.iter().map(|seated| (seated.first, &seated.model, each)).collect();
         let first = self.firsts.first().copied().unwrap_or(self.first_point);
         let mut settings = settings_together(&bearings, first..self.first_point, self.dof(), accuracy);
@@ -65,52 +67,32 @@ impl Machine {
         }
         settings
     }
-}
 
-impl<'a> MachineMotion<'a> {
-    /// With fresh workspaces.
-    pub fn new(machine: &'a Machine) -> Self {
-        let fastest = machine.rotation.max_speed();
-        let limits = machine.structures.iter().map(|structure| longest_step(structure, fastest));
-        Self {
-            parts: machine.bearings.iter().map(|seated| Part::new(&seated.model)).collect(),
-            power: Power::default(),
-            longest: limits.fold(f64::INFINITY, f64::min),
-            machine,
+    /// Second time derivatives `a` of the positions at the state `y` and `t`; forces and flows stay in `parts`.
+    #[inline]
+    pub fn accelerations(&self, t: f64, y: &[f64], a: &mut [f64], parts: &mut Parts) {
+        if self.is_one_bearing() {
+            let ws = &mut parts.each[0].ws;
+            self.bearings[0].model.accelerations(t, y, a, ws);
+            parts.power = ws.power;
+        } else {
+            parts.power = self.together(t, y, a, &mut parts.each);
         }
     }
-}
 
-/// Longest step in which every motion of a structure decays at speeds up to `fastest`, rad/s.
-fn longest_step(structure: &Structure, fastest: f64) -> f64 {
-    let turning = fastest * structure.largest_gyroscopic();
-    let of = structure.squares.iter().zip(&structure.dampers).map(|(square, damper)| {
-        let rate = square.sqrt() + turning;
-        DAMPED_CONTACT.stability_limit(rate, 0.5 * damper / rate.max(f64::MIN_POSITIVE))
-    });
-    of.fold(f64::INFINITY, f64::min)
-}
-
-impl System for MachineMotion<'_> {
-    type Flow = Power;
-
-    fn size(&self) -> usize {
-        2 * self.machine.dof()
-    }
-
-    fn accelerations(&mut self, t: f64, y: &[f64], a: &mut [f64]) {
-        let machine = self.machine;
-        let (q, v) = y.split_at(machine.dof());
-        let w = machine.rotation.at(t).0;
+    /// The same where anything is coupled, with the flows of the whole.
+    fn together(&self, t: f64, y: &[f64], a: &mut [f64], parts: &mut [Part]) -> Power {
+        let (q, v) = y.split_at(self.dof());
+        let w = self.rotation.at(t).0;
         let mut power = Power::default();
-        machine.drive(t, a);
-        for (structure, &first) in machine.structures.iter().zip(&machine.firsts) {
+        self.drive(t, a);
+        for (structure, &first) in self.structures.iter().zip(&self.firsts) {
             let (f, rates) = (&mut a[first..][..structure.size()], &v[first..]);
             power.load += f.iter().zip(rates).map(|(f, v)| f * v).sum::<f64>();
-            (0..2).for_each(|k| structure.momentum[k].push(machine.gravity[k], f));
+            (0..2).for_each(|k| structure.momentum[k].push(self.gravity[k], f));
             power.support += structure.hold((&q[first..], rates), w, f);
         }
-        for (seated, part) in machine.bearings.iter().zip(&mut self.parts) {
+        for (seated, part) in self.bearings.iter().zip(parts) {
             let own = seated.model.layout.dof();
             part.y[..own].copy_from_slice(&q[seated.range()]);
             part.y[own..].copy_from_slice(&v[seated.range()]);
@@ -119,7 +101,7 @@ impl System for MachineMotion<'_> {
             power += part.ws.power;
             for (side, mount) in seated.mounts.iter().enumerate() {
                 let Some(Mount { structure, seat }) = mount else { continue };
-                let f = &mut a[machine.firsts[*structure]..];
+                let f = &mut a[self.firsts[*structure]..];
                 let forces = forces_on_ring(&seated.model, side, &part.a);
                 (0..2).for_each(|k| seat.shift[k].push(forces[0][k], f));
                 if seated.model.tilt.is_some() {
@@ -127,17 +109,57 @@ impl System for MachineMotion<'_> {
                 }
             }
         }
-        machine.follow(a);
-        self.power = power;
+        self.follow(a);
+        power
+    }
+
+    /// Stability limit of the step at the last evaluation, s.
+    pub fn longest_step(&self, parts: &Parts) -> f64 {
+        let of = |(seated, part): (&Seated, &Part)| seated.model.longest_step(&part.ws);
+        self.bearings.iter().zip(&parts.each).map(of).fold(self.longest, f64::min)
+    }
+
+    /// A bearing at the last evaluation, which was at `t` and the state `y` and gave the accelerations `a`.
+    pub fn frame<'a>(&'a self, k: usize, (t, y, a): (f64, &'a [f64], &'a [f64]), parts: &'a Parts) -> Frame<'a> {
+        let Seated { model, .. } = &self.bearings[k];
+        Frame { model, t, y: parts.state(self, k, y), a: &a[self.bearings[k].range()], ws: &parts.each[k].ws }
+    }
+}
+
+/// A machine and what its evaluations leave, its own or somebody's.
+#[derive(Debug)]
+pub struct MachineMotion<'a, P = Parts> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// What the last evaluation left.
+    pub parts: P,
+}
+
+impl<'a> MachineMotion<'a> {
+    /// With fresh workspaces.
+    pub fn new(machine: &'a Machine) -> Self {
+        Self { parts: Parts::new(machine), machine }
+    }
+}
+
+impl<P: BorrowMut<Parts>> System for MachineMotion<'_, P> {
+    type Flow = Power;
+
+    fn size(&self) -> usize {
+        2 * self.machine.dof()
+    }
+
+    #[inline]
+    fn accelerations(&mut self, t: f64, y: &[f64], a: &mut [f64]) {
+        self.machine.accelerations(t, y, a, self.parts.borrow_mut());
     }
 
     fn stable_step(&self) -> f64 {
-        let of = |(seated, part): (&Seated, &Part)| seated.model.longest_step(&part.ws);
-        self.machine.bearings.iter().zip(&self.parts).map(of).fold(self.longest, f64::min)
+        self.machine.longest_step(self.parts.borrow())
     }
 
     fn flow(&self) -> Power {
-        self.power
+        self.parts.borrow().power
     }
 }
 

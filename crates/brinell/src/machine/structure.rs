@@ -1,6 +1,7 @@
 //! A shaft or a housing, on which bearings sit, elastic or rigid, in coordinates of which each is a mode of its own: M = 1.
 
 use crate::model::Support;
+use crate::solver::DAMPED_CONTACT;
 use brinell_shaft::{Port, Reduced};
 
 /// A place of a body and a direction: the displacement or tilt there is the product of its numbers with the coordinates, and a force or moment
@@ -166,10 +167,16 @@ impl Structure {
         taken
     }
 
-    /// The largest sum of a row of G.
-    pub(super) fn largest_gyroscopic(&self) -> f64 {
+    /// Longest step in which every motion decays at speeds up to `fastest`, rad/s.
+    pub(super) fn longest_step(&self, fastest: f64) -> f64 {
         let n = (self.size() / 2).max(1);
-        self.gyroscopic.chunks_exact(n).map(|row| row.iter().map(|g| g.abs()).sum()).fold(0.0, f64::max)
+        let row = |row: &[f64]| row.iter().map(|g| g.abs()).sum();
+        let turning = fastest * self.gyroscopic.chunks_exact(n).map(row).fold(0.0, f64::max);
+        let of = self.squares.iter().zip(&self.dampers).map(|(square, damper)| {
+            let rate = square.sqrt() + turning;
+            DAMPED_CONTACT.stability_limit(rate, 0.5 * damper / rate.max(f64::MIN_POSITIVE))
+        });
+        of.fold(f64::INFINITY, f64::min)
     }
 
     /// Kinetic energy and that of its springs, J.

@@ -16,12 +16,12 @@ mod switches;
 
 use crate::channel::{self, Channel, Frame};
 use crate::error::{Error, refuse};
+use crate::machine::Machine;
 use crate::model::{Custom, Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::decimate::FACTOR;
 use crate::solver::Work;
-use crate::start;
 use std::ops::ControlFlow;
 
 #[doc(hidden)]
@@ -189,7 +189,7 @@ pub struct Outcome {
 /// A run that is ready to go.
 #[derive(Debug)]
 pub struct Simulation {
-    model: Model,
+    machine: Machine,
     channels: Vec<Channel>,
     filtered: Vec<Channel>,
     /// Where each acceleration of the fast grid goes among them, and its entry of the derivative.
@@ -254,11 +254,12 @@ impl Simulation {
     }
 
     fn of(scenario: &Scenario, model: Model) -> Result<Self, Error> {
-        let initial = start::state(&model)?;
-        let (channels, idle_patterns) = channel::select(&model, &scenario.sensor, &scenario.simulation.record);
+        let machine = Machine::of_one(model);
+        let (initial, model) = (machine.initial()?, &machine.bearings[0].model);
+        let (channels, idle_patterns) = channel::select(model, &scenario.sensor, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;
         let (ring, others): (Vec<_>, Vec<_>) =
-            channel::filterable(&model).into_iter().partition(|c| c.name.starts_with("outer_a"));
+            channel::filterable(model).into_iter().partition(|c| c.name.starts_with("outer_a"));
         let others = others.into_iter().filter(|c| channels.iter().any(|r| r.name == c.name));
         let mut filtered = channel::sensor_channels(&scenario.sensor);
         let own = filtered.len();
@@ -277,13 +278,13 @@ impl Simulation {
             samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64 + 1,
             accuracy: scenario.simulation.accuracy,
             most_steps: scenario.simulation.most_steps,
-            model,
+            machine,
         })
     }
 
-    /// The model.
+    /// The model; of a machine that of its first bearing.
     pub fn model(&self) -> &Model {
-        &self.model
+        &self.machine.bearings[0].model
     }
 
     /// The recorded channels, in the order of rows; time is not among them.
