@@ -1,9 +1,10 @@
 //! Bearings in a machine, section 25.
 
 use brinell::accuracy::settings;
-use brinell::machine::{Machine, MachineMotion, Mount, Structure};
+use brinell::machine::{Machine, MachineMotion, Mount, Point, Structure};
 use brinell::model::{Model, Motion, Power, Support};
 use brinell::scenario::{Accuracy, LoadOn, Scenario};
+use brinell::simulate::{End, Recording, Signals, Simulation};
 use brinell::solver::{Settings, Stepper, System};
 use brinell::start;
 use brinell_shaft::{Beam, Disc, Material, Part, Port, Reduced, reduce};
@@ -51,7 +52,21 @@ fn on_two(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load:
     let springs = [(1e7, 500.0), (1e5, 5.0)].map(|(stiffness, damping)| Support { stiffness, damping });
     let housing = Structure::rigid(HOUSING, (springs[0], springs[1]));
     let structures = [structure].into_iter().chain(in_housing.then_some(housing));
-    Machine::new(bearings.into(), structures.collect(), Vec::new())
+    let sensor = |(k, name): (usize, &str)| Point {
+        name: name.into(),
+        is_sensor: true,
+        structure: 1,
+        row: Structure::seat_of_rigid(HOUSING, AT[k] - 0.5 * LENGTH).shift[1].clone(),
+    };
+    let points = ["housing1.sensor1", "housing1.sensor2"].into_iter().enumerate().map(sensor);
+    let points = points.filter(|_| in_housing).chain([Point {
+        name: "shaft.y1".into(),
+        is_sensor: false,
+        structure: 0,
+        row: seat(0.5 * LENGTH).shift[1].clone(),
+    }]);
+    let points = points.collect();
+    Machine::new(bearings.into(), structures.collect(), points)
 }
 
 /// A bearing whose load comes from the shaft.
@@ -140,4 +155,43 @@ fn analytic_energy_and_momentum_of_a_machine_close() {
         let imbalance = machine.imbalance((t, &y, &a), &motion.parts).unwrap();
         assert!(imbalance < 1e-12, "{imbalance:e}");
     }
+}
+
+/// A run of a machine: what its sensors see of damage in one bearing.
+#[test]
+fn prop_damage_at_one_end_is_heard_at_both_and_more_there() {
+    let healthy = of("6205", "full");
+    let damaged = rectangle_on(&healthy);
+    let recording = Recording {
+        duration_s: 0.4,
+        sample_rate_hz: 25600.0,
+        record: vec!["housing1.*".into(), "shaft.*".into(), "bearing2.outer_ay".into()],
+        accuracy: Accuracy::Standard,
+        most_steps: 1e7,
+        settled_s: 0.1,
+    };
+    let levels = |scenarios: [&Scenario; 2]| {
+        let simulation =
+            Simulation::of_machine(on_two(scenarios, (false, true), [0.0, -900.0], 2e-6), &recording).unwrap();
+        let names: Vec<&str> = simulation.table().map(|(name, ..)| name).collect();
+        assert_eq!(names, ["bearing2.outer_ay", "shaft.y1", "housing1.sensor1", "housing1.sensor2"]);
+        let mut signals = Signals::new(&simulation).unwrap();
+        let outcome = simulation.run(&mut signals);
+        assert_eq!((outcome.end, outcome.rows), (End::Complete, 10241));
+        assert!(outcome.energy.left_open().is_none(), "{:?}", outcome.energy.relative_residual());
+        assert!(outcome.momentum_imbalance.unwrap() < 1e-11);
+        // The housing is rigid: its ring follows it, and the sensor sits there.
+        let [ring, sag, near, far] = ["bearing2.outer_ay", "shaft.y1", "housing1.sensor1", "housing1.sensor2"]
+            .map(|name| signals.get(name).unwrap()[2560..].to_vec());
+        assert!(sag.iter().all(|y| (-1e-3..0.0).contains(y)));
+        assert!(ring.iter().zip(&far).map(|(a, b)| (a - b).powi(2)).sum::<f64>() < far.iter().map(|a| a * a).sum());
+        [rms(&near), rms(&far)]
+    };
+    let (quiet, loud) = (levels([&healthy, &healthy]), levels([&damaged, &healthy]));
+    assert!(loud[1] > 10.0 * quiet[1] && loud[0] > 1.5 * loud[1], "{quiet:?} {loud:?}");
+    assert!((quiet[0] / quiet[1] - 1.0).abs() < 0.05, "{quiet:?}");
+}
+
+fn rms(x: &[f64]) -> f64 {
+    (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt()
 }

@@ -40,9 +40,13 @@ impl Seated {
     }
 }
 
-/// A place of a structure that is looked at, in one direction: a sensor's.
+/// A place of a structure that is looked at, in one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
+    /// Name of its channel.
+    pub name: String,
+    /// Whether a sensor reads its acceleration, behind the anti-alias filter; else its displacement is recorded.
+    pub is_sensor: bool,
     /// Which structure, from 0.
     pub structure: usize,
     /// Where and which way.

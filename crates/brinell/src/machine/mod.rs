@@ -6,6 +6,7 @@
 //! its mass, says which force acts on it.
 
 mod assembly;
+mod channels;
 mod energy;
 mod motion;
 mod structure;

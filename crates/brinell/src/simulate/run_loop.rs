@@ -291,17 +291,19 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             machine.accelerations(t, &self.y, &mut self.a, &mut self.parts);
             self.work.sample_evaluations += 1;
             let at = (t, &self.y[..], &self.a[..]);
-            let frame = machine.frame(0, at, &self.parts);
             let index = self.next / FACTOR as u64;
             let row = self.pending.row(index);
             for (value, channel) in row.iter_mut().zip(&simulation.channels) {
-                *value = channel.value(&frame);
+                *value = match channel.machine_entry() {
+                    Some(entry) => self.y[entry],
+                    None => channel.value(&machine.frame(channel.bearing, at, &self.parts)),
+                };
             }
             if let (Some(worst), Some(now)) = (&mut self.imbalance, machine.imbalance(at, &self.parts)) {
                 *worst = worst.max(now);
             }
             if index < self.last {
-                observer.sample(index, &frame);
+                observer.sample(index, &machine.frame(0, at, &self.parts));
             }
         }
         if self.next == 0 {
