@@ -146,16 +146,19 @@ impl Beam {
         Some(Port(unit))
     }
 
+    /// M times a unit of displacement of all nodes: what its weight does, and its momentum.
+    pub fn weight(&self) -> Port {
+        Port(&self.equations.mass * self.moved(|_| 1.0, 0.0))
+    }
+
     /// kg, of all that is on it too.
     pub fn mass(&self) -> f64 {
-        let moved = self.moved(|_| 1.0, 0.0);
-        moved.dot(&(&self.equations.mass * &moved))
+        self.moved(|_| 1.0, 0.0).dot(&self.weight().0)
     }
 
     /// Z of its centre of mass, m.
     pub fn centre(&self) -> f64 {
-        let moved = self.moved(|_| 1.0, 0.0);
-        self.moved(|z| z, 1.0).dot(&(&self.equations.mass * &moved)) / self.mass()
+        self.moved(|z| z, 1.0).dot(&self.weight().0) / self.mass()
     }
 
     /// The two motions of the rigid shaft: along, and about its centre of mass.

@@ -3,11 +3,11 @@
 use brinell::accuracy::settings;
 use brinell::machine::{Machine, MachineMotion, Mount, Point, Structure};
 use brinell::model::{Model, Motion, Power, Support};
-use brinell::scenario::{Accuracy, LoadOn, Scenario};
+use brinell::scenario::{Accuracy, LoadOn, Scenario, Speed};
 use brinell::simulate::{End, Recording, Signals, Simulation};
 use brinell::solver::{Settings, Stepper, System};
 use brinell::start;
-use brinell_shaft::{Beam, Disc, Material, Part, Port, Reduced, reduce};
+use brinell_shaft::{Beam, Disc, Material, Part, Reduced, Spring, reduce};
 
 const STEEL: Material = Material { youngs_modulus: 211e9, shear_modulus: 81.2e9, density: 7810.0 };
 const LENGTH: f64 = 0.4;
@@ -35,9 +35,7 @@ fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
 /// That shaft on two bearings, whose outer rings are on their own supports or both in a rigid housing, under `load` in the middle.
 fn on_two(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [f64; 2], unbalance: f64) -> Machine {
     let (beam, reduced) = shaft(scenarios[0], is_rigid);
-    let all =
-        Port(&beam.equations.mass * nalgebra::DVector::from_fn(beam.equations.size(), |k, _| f64::from(k % 2 == 0)));
-    let mut structure = Structure::shaft(&reduced, &reduced.port(&all));
+    let mut structure = Structure::shaft(&beam, &reduced);
     let seat = |z: f64| {
         let (shift, tilt) = (beam.port(z).unwrap(), beam.tilt_port(z).unwrap());
         Structure::seat_of_shaft(&reduced.port(&shift), &reduced.port(&tilt))
@@ -194,4 +192,52 @@ fn prop_damage_at_one_end_is_heard_at_both_and_more_there() {
 
 fn rms(x: &[f64]) -> f64 {
     (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt()
+}
+
+/// `validation/shaft/figures.py`: a shaft with two discs on springs alone, from rest, out of balance.
+#[test]
+fn xval_a_shaft_moves_as_in_another_rotor_program() {
+    let part = |length, outer_diameter, inner_diameter| Part { length, outer_diameter, inner_diameter };
+    let discs = [(0.5, 0.28), (1.0, 0.35)]
+        .map(|(at, diameter)| Disc::of_cylinder(at, &part(0.07, diameter, 0.05), STEEL.density));
+    let springs = [0.0, 1.5].map(|at| Spring { at, radial: 1e6, tilt: 0.0 });
+    let beam = Beam::new(&STEEL, &[part(1.5, 0.05, 0.0)], (&discs, &springs), &[], 0.25).unwrap();
+    let reduced = reduce(&beam, 1e5, &[], 0.0, false).unwrap();
+    let seat = |z: f64| {
+        let [shift, tilt] = [beam.port(z), beam.tilt_port(z)].map(|port| reduced.port(&port.unwrap()));
+        Structure::seat_of_shaft(&shift, &tilt)
+    };
+    let mut structure = Structure::shaft(&beam, &reduced);
+    structure.add_unbalance(&seat(0.5), 1e-3, 0.3);
+    let looked_at = [0.0, 0.5, 1.0].into_iter().flat_map(|z| seat(z).shift);
+    let points = looked_at.map(|row| Point { name: "shaft".into(), is_sensor: false, structure: 0, row });
+    // A bearing that holds nothing has to be there.
+    let mut beside = of("6205", "full");
+    beside.operation.speed_rpm = Speed::Constant(2400.0);
+    beside.operation.gravity_m_per_s2 = [0.0; 2];
+    let own = Model::new(&beside).unwrap();
+    let first = own.layout.dof();
+    let machine = Machine::new(vec![(own, [None, None])], vec![structure], points.collect());
+    let mut y = machine.initial().unwrap();
+    let dof = machine.dof();
+    y[first..dof].fill(0.0);
+    y[dof + first..].fill(0.0);
+    let settings = Settings { tolerance: 1e9, max_step: 1e-6, ..machine.settings(Accuracy::Standard) };
+    let mut motion = MachineMotion::new(&machine);
+    let mut stepper = Stepper::new(&mut motion, settings, 0.0, &y);
+    for (t, expected) in [
+        (0.02, [-3.068721656e-5, -2.512329333e-5, -3.107042799e-5, 1.071775243e-5, -8.882730195e-6, 5.633681329e-5]),
+        (0.05, [7.849651069e-5, -4.548536317e-5, 5.126414721e-5, -5.247684010e-5, -4.093392887e-5, -1.935947473e-5]),
+        (0.1, [8.822347524e-5, 6.473605896e-5, 4.149419664e-5, 5.255333201e-5, -6.971163008e-5, -1.071720447e-5]),
+    ] {
+        while stepper.t() < t {
+            stepper.step(&mut motion).unwrap();
+        }
+        stepper.interpolate(t, &mut y);
+        for (k, expected) in expected.into_iter().enumerate() {
+            let found = y[machine.point(k)];
+            // Theirs takes the force as straight lines of 10 us.
+            assert!((found - expected).abs() < 1e-8, "{t} s, {k}: {found:e} is not {expected:e}");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::model::Support;
 use crate::solver::DAMPED_CONTACT;
-use brinell_shaft::{Port, Reduced};
+use brinell_shaft::{Beam, Port, Reduced};
 
 /// A place of a body and a direction: the displacement or tilt there is the product of its numbers with the coordinates, and a force or moment
 /// there pushes the coordinates by the same numbers times it.
@@ -81,8 +81,9 @@ impl Structure {
         }
     }
 
-    /// A shaft; `weight` is M times a unit of displacement of all its nodes, in its coordinates.
-    pub fn shaft(reduced: &Reduced, weight: &Port) -> Self {
+    /// A shaft, and the beam that it was.
+    pub fn shaft(beam: &Beam, reduced: &Reduced) -> Self {
+        let weight = reduced.port(&beam.weight());
         let twice = |of: Vec<f64>| [of.clone(), of].concat();
         let equations = &reduced.equations;
         let of = |matrix: &dyn Fn(usize) -> f64| twice((0..equations.size()).map(matrix).collect());
@@ -91,7 +92,7 @@ impl Structure {
             ..Self::new(
                 of(&|k| equations.stiffness[(k, k)]),
                 of(&|k| equations.damping[(k, k)]),
-                [0, 1].map(|plane| Row::in_plane(weight, plane)),
+                [0, 1].map(|plane| Row::in_plane(&weight, plane)),
             )
         }
     }
