@@ -1,6 +1,7 @@
 // The panel over the raceway: surface and row, tools, the damage that is selected. Turns what is drawn into edits of the scenario.
 import { Field } from "./controls.js";
-import { h, numberInput, numberOf, short } from "./dom.js";
+import { short } from "./chart.js";
+import { h, numberInput, numberOf } from "./dom.js";
 import { defectSpecs } from "./schema.js";
 import { Raceway } from "./raceway.js";
 import { notice } from "./readout.js";
