@@ -179,3 +179,19 @@ export class Warnings {
     }
   }
 }
+
+/** What the engine does with a bearing, on the page; whether its motion is stopped. @param {import("./side.js").Side} side */
+export function showState(side) {
+  const { state } = side.live,
+    bad = side.problems.length > 0,
+    node = byId("state");
+  const words =
+    state === "lost" ? "engine lost" : side.live.working ? "working" : state === "running" ? `running ${side.percent} %` : state;
+  node.textContent = words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
+  node.title = side.opened.quick ? "Damage acts by quick tables until the scenario's own are made" : "";
+  node.dataset.state = state;
+  node.toggleAttribute("data-bad", bad);
+  byId("run").textContent = side.live.whole ? "Cancel" : `Run ${short(side.live.opened.samples / side.live.opened.rate_hz)} s`;
+  byId("pause").textContent = state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
+  return state === "paused" || state === "done" || state === "lost";
+}
