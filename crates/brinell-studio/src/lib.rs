@@ -24,5 +24,5 @@ mod text;
 
 pub use about::example_file;
 pub use message::{Arrays, Message};
-pub use page::PAGE;
+pub use page::{CHART, PAGE};
 pub use studio::{SharedStudio, Studio};

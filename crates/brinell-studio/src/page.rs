@@ -18,6 +18,7 @@ files! {
     "studio.css": "text/css; charset=utf-8",
     "src/answers.js": JS,
     "src/assets.js": JS,
+    "src/chart.js": JS,
     "src/controls.js": JS,
     "src/curves.js": JS,
     "src/damage-panel.js": JS,
@@ -65,6 +66,9 @@ files! {
     "src/worker-engine.js": JS,
     "src/worker.js": JS,
 }
+
+/// What every chart has in common, as a module; the pages of runs have it in their script.
+pub const CHART: &str = include_str!("../page/src/chart.js");
 
 #[cfg(test)]
 mod tests {

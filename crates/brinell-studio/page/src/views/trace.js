@@ -8,9 +8,6 @@ import { breadth, font, path } from "./pen.js";
 /** @typedef {{ name: string, hz: number, nominal_hz: number, found: boolean, harmonics: number, over_noise_db: number }} Line */
 /** @typedef {{ X: (v: number) => number, Y: (v: number) => number, frame: Frame, view: [number, number] }} Space from values to px */
 
-/** dB of a value against one unit; for the logarithmic axis. @param {number} v */
-export const decibel = (v) => 20 * Math.log10(Math.max(v, 1e-30));
-
 /** First and last index of a curve that a view needs, with one beyond each end. @param {Curve} curve @param {[number, number]} view */
 export function part(curve, view) {
   const last = curve.values.length - 1;
