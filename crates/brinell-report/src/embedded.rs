@@ -10,7 +10,7 @@ use crate::markup::escape;
 use crate::number::{linear_ticks, runs, tick_labels};
 use crate::picture::{Paint, Picture};
 use brinell::analysis::STANDARD_GRAVITY;
-use brinell_studio::CHART;
+use brinell_studio_page::CHART;
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
 pub(crate) const KEPT: usize = 65_536;

@@ -56,28 +56,11 @@ function level(chart, v, x) {
 const asMade = (chart) => chart.scale === chart.made && chart.unit === 0;
 
 function path(chart, curve, view, frame, y) {
-  // As on paper: smallest and largest value of each pixel column, or the largest alone.
-  const [l, , r] = frame, { values } = curve, peak = chart.peak;
-  const first = Math.max(0, indexOf(curve, view[0]) - 2), last = Math.min(values.length, indexOf(curve, view[1]) + 3);
-  const across = (i) => l + (r - l) * (placeOf(curve, i) - view[0]) / (view[1] - view[0]);
-  let d = "", pen = false, column = null, kept = [];
-  const flush = () => {
-    for (const i of [...new Set(kept)].sort((a, b) => a - b)) {
-      d += (pen ? "L" : "M") + across(i).toFixed(1) + " " + y(level(chart, values[i], placeOf(curve, i))).toFixed(1);
-      pen = true;
-    }
-  };
-  for (let i = first; i < last; i++) {
-    if (!Number.isFinite(level(chart, values[i], placeOf(curve, i)))) { flush(); kept = []; column = null; pen = false; continue; }
-    const at = Math.floor(across(i));
-    if (at !== column) { flush(); column = at; kept = peak ? [i] : [i, i, i, i]; continue; }
-    if (peak) { if (values[i] > values[kept[0]]) kept[0] = i; continue; }
-    if (values[i] < values[kept[1]]) kept[1] = i;
-    if (values[i] > values[kept[2]]) kept[2] = i;
-    kept[3] = i;
-  }
-  flush();
-  return d;
+  // As on paper: a pixel is a column.
+  const [l, , r] = frame, ends = [Math.max(0, indexOf(curve, view[0]) - 2), Math.min(curve.values.length - 1, indexOf(curve, view[1]) + 2)];
+  const across = (i) => l + (r - l) * (placeOf(curve, i) - view[0]) / (view[1] - view[0]), value = (i) => level(chart, curve.values[i], placeOf(curve, i));
+  const lines = thinned(ends, value, (i) => Math.floor(across(i)), chart.peak);
+  return lines.map((line) => "M" + line.map((i) => `${across(i).toFixed(1)} ${y(value(i)).toFixed(1)}`).join("L")).join("");
 }
 
 function clone(node, parent, attributes, text) {

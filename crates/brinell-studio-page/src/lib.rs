@@ -1,4 +1,5 @@
-//! The files of the page, for a server: `page/`.
+//! The files of the studio's page, for a server, and what its charts have in common with those of the pages of runs.
+//! The page itself is HTML, CSS and JavaScript; its README lists the modules.
 
 /// A script.
 const JS: &str = "text/javascript; charset=utf-8";
@@ -9,7 +10,7 @@ macro_rules! files {
         /// Every file of the page: its path from the page's root, its type and its content. The first is the page
         /// itself.
         pub const PAGE: &[(&str, &str, &[u8])] =
-            &[$(($name, $kind, include_bytes!(concat!("../page/", $name)))),*];
+            &[$(($name, $kind, include_bytes!(concat!("../", $name)))),*];
     };
 }
 
@@ -68,7 +69,7 @@ files! {
 }
 
 /// What every chart has in common, as a module; the pages of runs have it in their script.
-pub const CHART: &str = include_str!("../page/src/chart.js");
+pub const CHART: &str = include_str!("chart.js");
 
 #[cfg(test)]
 mod tests {
@@ -79,7 +80,7 @@ mod tests {
     /// Every script that lies there is served, and nothing else.
     #[test]
     fn prop_the_list_is_what_lies_there() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut found = BTreeSet::from(["index.html".to_owned(), "studio.css".to_owned()]);
         let mut folders = vec![root.join("src")];
         while let Some(folder) = folders.pop() {

@@ -49,6 +49,41 @@ export function largestOf(values, index, first, last) {
   return index;
 }
 
+/**
+ * Lines through values, as indices, with what a picture needs of them: of each column the first, the smallest, the largest and the last, or with `peaks` the
+ * largest alone. What is no number breaks a line.
+ * @param {[number, number]} ends  the first index and the last @param {(i: number) => number | undefined} value @param {(i: number) => number} column @param {boolean} peaks
+ */
+export function thinned([first, last], value, column, peaks) {
+  /** @type {number[][]} */
+  const lines = [];
+  let [start, low, high, least, most, here] = [-1, 0, 0, 0, 0, 0],
+    broken = true;
+  const flush = (/** @type {number} */ end) => {
+    if (start < 0) return;
+    if (broken) lines.push([]);
+    const kept = peaks ? [high] : [start, Math.min(low, high), Math.max(low, high), end];
+    lines[lines.length - 1].push(...kept.filter((i, k) => i !== kept[k - 1]));
+    [start, broken] = [-1, false];
+  };
+  for (let i = first; i <= last; i++) {
+    const v = value(i);
+    if (v === undefined || !Number.isFinite(v)) {
+      flush(i - 1);
+      broken = true;
+      continue;
+    }
+    const at = column(i);
+    if (start < 0 || at !== here) {
+      flush(i - 1);
+      [start, low, high, least, most, here] = [i, i, i, v, v, at];
+    } else if (v < least) [low, least] = [i, v];
+    else if (v > most) [high, most] = [i, v];
+  }
+  flush(last);
+  return lines;
+}
+
 /** A view within all that there is, and not narrower than the least. @param {[number, number]} view @param {[number, number]} all @param {number} least @returns {[number, number]} */
 export function within([from, to], [lo, hi], least) {
   const half = Math.min(Math.max(to - from, least), hi - lo) / 2,
