@@ -15,6 +15,7 @@ use brinell_report::Picture;
 use brinell_study::runner::JOURNAL;
 use serde_json::Value;
 use std::fs::File;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub(crate) const SCENARIO: &str = "scenario.toml";
@@ -139,7 +140,8 @@ fn spared(folder: &Path, inputs: &Inputs, own: impl Fn(&String) -> bool) -> Resu
         let at = folder.join(&below);
         let failed = |error| Failure::Read(at.clone(), error);
         let entries = match std::fs::read_dir(&at) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
+            // A file in the folder's place is told by who makes the folder.
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => continue,
             entries => entries.map_err(failed)?,
         };
         for entry in entries {
@@ -209,7 +211,7 @@ impl Earlier {
         for name in self.files.iter().filter(|name| !written.contains(name)) {
             let path = self.folder.join(name);
             match std::fs::remove_file(&path) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
                     return Err(Failure::Usage(format!(
                         "cannot remove {}, of earlier results: {error}",
                         path.display()

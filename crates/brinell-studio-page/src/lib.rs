@@ -86,7 +86,7 @@ mod tests {
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();
-                let name = path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
+                let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
                 match path.extension().and_then(|e| e.to_str()) {
                     _ if path.is_dir() => folders.push(path),
                     Some("js") => drop(found.insert(name)),
