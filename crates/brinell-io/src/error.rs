@@ -1,5 +1,6 @@
 //! What can go wrong with a file, and what to do about it.
 
+use crate::file_kind::FileKind;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -171,7 +172,7 @@ pub enum IoError {
         content_is: String,
     },
     /// A file that is none of the formats that can be read.
-    #[error("{}: cannot read: {what}; known are csv and other text, parquet, mat, hdf5, npy, npz, wav, uff and tdms", path.display())]
+    #[error("{}: cannot read: {what}; known are {}", path.display(), FileKind::known())]
     UnknownContent {
         /// The file.
         path: PathBuf,

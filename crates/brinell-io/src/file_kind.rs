@@ -50,7 +50,7 @@ const PROMISED: [(&[&str], &[FileKind], &str); 9] = {
         (&["csv", "tsv", "lvm"], &[K::Text], "text"),
         (&["parquet", "pq"], &[K::Parquet], "Parquet"),
         (&["mat"], &[K::Mat5, K::Hdf5], "MATLAB"),
-        (&["h5", "hdf5", "hdf"], &[K::Hdf5], "HDF5"),
+        (&["hdf5", "h5", "hdf"], &[K::Hdf5], "HDF5"),
         (&["npy"], &[K::Npy], "NumPy npy"),
         (&["npz"], &[K::Npz], "NumPy npz"),
         (&["wav", "wave"], &[K::Wav], "WAV"),
@@ -65,7 +65,17 @@ impl FileKind {
         Self::extensions_by_format().flatten().copied()
     }
 
-    /// The same, those of a format together.
+    /// What can be read, for help and messages: "csv and other text, parquet, ... and tdms".
+    pub fn known() -> String {
+        let names = PROMISED.map(|(extensions, kinds, _)| match kinds {
+            [Self::Text] => "csv and other text",
+            _ => extensions[0],
+        });
+        let [first @ .., last] = &names;
+        format!("{} and {last}", first.join(", "))
+    }
+
+    /// The same extensions, those of a format together.
     #[doc(hidden)]
     pub fn extensions_by_format() -> impl Iterator<Item = &'static [&'static str]> {
         PROMISED.iter().map(|(extensions, ..)| *extensions)

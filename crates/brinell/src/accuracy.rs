@@ -7,21 +7,25 @@ use crate::solver::Settings;
 /// Tolerance of a step's error norm, sqrt(J): a fraction of the square root of the elastic energy that the bearing
 /// holds under its load, so that one number serves a bearing of any size.
 pub fn tolerance(model: &Model, accuracy: Accuracy) -> f64 {
+    tolerance_under(model, accuracy, model.load.full[0].hypot(model.load.full[1]))
+}
+
+/// The same of a bearing that carries `load`, N.
+fn tolerance_under(model: &Model, accuracy: Accuracy, load: f64) -> f64 {
     let fraction = match accuracy {
         Accuracy::Standard => STANDARD,
         Accuracy::Reference if model.has_smooth_forces() => SMOOTH_REFERENCE,
         Accuracy::Reference => REFERENCE,
     };
-    let force = characteristic_force(model);
+    let force = characteristic_force(model, load);
     let deflection = model.series_contact.deflection(heaviest_contact(model, force));
     fraction * (force * deflection).sqrt()
 }
 
 /// The largest of load, weight and the rollers' centrifugal force, N.
-fn characteristic_force(model: &Model) -> f64 {
+fn characteristic_force(model: &Model, load: f64) -> f64 {
     let m = &model.inertia;
     let rollers = model.layout.rollers() as f64;
-    let load = model.load.full[0].hypot(model.load.full[1]);
     let weight = model.gravity[0].hypot(model.gravity[1]) * (m.inner_ring + m.outer_ring + rollers * m.roller);
     let orbit = model.rolling_orbit_speed(model.rotation.max_speed());
     let centrifugal = rollers * m.roller * model.geometry.pitch_radius * orbit * orbit;
@@ -57,11 +61,38 @@ const RING: f64 = 30.0;
 
 /// Settings of the solver for a model.
 pub fn settings(model: &Model, accuracy: Accuracy) -> Settings {
+    settings_under(model, accuracy, model.load.full[0].hypot(model.load.full[1]))
+}
+
+/// Settings of the solver for bearings that carry loads, N, on structures with these coordinates of mass 1, and as many
+/// positions in all: errors add up as energies do.
+pub(crate) fn settings_together(
+    bearings: &[(usize, &Model, f64)],
+    structures: std::ops::Range<usize>,
+    positions: usize,
+    accuracy: Accuracy,
+) -> Settings {
+    let mut whole = Settings { tolerance: 0.0, mass: vec![0.0; positions], max_step: LONGEST_STEP };
+    for &(first, model, load) in bearings {
+        let of = settings_under(model, accuracy, load);
+        whole.tolerance = whole.tolerance.hypot(of.tolerance);
+        whole.max_step = whole.max_step.min(of.max_step);
+        whole.mass[first..][..of.mass.len()].copy_from_slice(&of.mass);
+    }
+    whole.mass[structures].fill(RING);
+    whole
+}
+
+fn settings_under(model: &Model, accuracy: Accuracy, load: f64) -> Settings {
     let orbit = model.rolling_orbit_speed(model.rotation.max_speed()).abs();
     let pitch = std::f64::consts::TAU / model.layout.rollers_per_row as f64;
     let mut mass = model.mass();
     for weight in &mut mass[model.layout.inner()..] {
         *weight *= RING;
     }
-    Settings { tolerance: tolerance(model, accuracy), mass, max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP) }
+    Settings {
+        tolerance: tolerance_under(model, accuracy, load),
+        mass,
+        max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP),
+    }
 }

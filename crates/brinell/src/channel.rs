@@ -60,8 +60,10 @@ enum Quantity {
     PocketForce(usize),
     /// Of the drive on the inner ring, and of the housing that holds the outer one.
     Torque(usize),
-    /// x, y or the sensor's own direction of the sensor channels: not in a frame.
+    /// x, y or the sensor's own direction of the sensor channels, or a sensor of a machine: not in a frame.
     Sensor(usize),
+    /// Entry of the state of a machine: not in the frame of a bearing.
+    Machine(usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,6 +98,8 @@ pub struct Channel {
     /// One line.
     pub description: String,
     quantity: Quantity,
+    /// Which bearing of a machine it is of, from 0.
+    pub(crate) bearing: usize,
 }
 
 /// The sensor's acceleration along X and Y.
@@ -130,7 +134,30 @@ impl Channel {
         }
     }
 
-    /// The channel's value in a frame; NaN for sensor channels, which no frame holds.
+    /// Entry of a machine's state that the channel is, if it is one.
+    pub(crate) fn machine_entry(&self) -> Option<usize> {
+        match self.quantity {
+            Quantity::Machine(k) => Some(k),
+            _ => None,
+        }
+    }
+
+    /// A sensor of a machine: what passes the anti-alias filter as number `k`.
+    pub(crate) fn of_sensor(k: usize, name: String, description: String) -> Self {
+        Self { name, unit: "m/s^2", description, quantity: Quantity::Sensor(k), bearing: 0 }
+    }
+
+    /// A displacement of a machine, its entry of the state.
+    pub(crate) fn of_machine(k: usize, name: String, description: String) -> Self {
+        Self { name, unit: "m", description, quantity: Quantity::Machine(k), bearing: 0 }
+    }
+
+    /// The same of bearing `k` of a machine, from 0.
+    pub(crate) fn of_bearing(self, k: usize) -> Self {
+        Self { name: format!("bearing{}.{}", k + 1, self.name), bearing: k, ..self }
+    }
+
+    /// The channel's value in a frame; NaN for sensor channels and for those of a whole machine, which no frame holds.
     pub fn value(&self, f: &Frame) -> f64 {
         match self.quantity {
             Quantity::State(k) => f.y[k],
@@ -143,7 +170,7 @@ impl Channel {
             Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
             Quantity::PocketForce(slot) => f.ws.pocket_force[slot],
             Quantity::Torque(k) => f.ws.torques[k],
-            Quantity::Sensor(_) => f64::NAN,
+            Quantity::Sensor(_) | Quantity::Machine(_) => f64::NAN,
         }
     }
 }
@@ -273,6 +300,7 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
         unit,
         description: format!("{what} along {along} after the anti-alias filter"),
         quantity: Quantity::Sensor(k),
+        bearing: 0,
     };
     let mut channels: Vec<Channel> = (SENSOR.into_iter().zip(["x", "y"]).enumerate())
         .map(|(k, (name, axis))| one(k, name.into(), "m/s^2", axis.into()))
@@ -325,7 +353,11 @@ pub fn matches(pattern: &str, name: &str) -> bool {
 /// The channels that `record` picks, in the order of [`all`], and the patterns that pick none.
 #[doc(hidden)]
 pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel>, Vec<String>) {
-    let channels = all(model, sensor);
+    chosen(all(model, sensor), record)
+}
+
+/// The channels of a list that `record` picks, in its order, and the patterns that pick none.
+pub(crate) fn chosen(channels: Vec<Channel>, record: &[String]) -> (Vec<Channel>, Vec<String>) {
     let idle = record.iter().filter(|p| !channels.iter().any(|c| matches(p, &c.name))).cloned().collect();
     let chosen = channels.into_iter().filter(|c| record.iter().any(|p| matches(p, &c.name))).collect();
     (chosen, idle)

@@ -174,6 +174,8 @@ pub mod lamina;
 #[doc(hidden)]
 pub mod lanes;
 #[doc(hidden)]
+pub mod machine;
+#[doc(hidden)]
 pub mod model;
 pub mod observe;
 #[doc(hidden)]

@@ -18,6 +18,7 @@ mod kernels;
 mod kinematics;
 mod lamina;
 mod literature;
+mod machine;
 mod mechanics;
 mod observe;
 mod plausibility;

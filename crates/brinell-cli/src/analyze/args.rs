@@ -8,6 +8,7 @@ use crate::figures::Print;
 use crate::look_up::scenario_meant;
 use brinell::analysis::MachineClass;
 use brinell::signal::Band;
+use brinell_io::FileKind;
 use brinell_measured::{Asked, Called, GivenSpeed, Request};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -31,10 +32,8 @@ use std::path::PathBuf;
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
-    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff, tdms; or the folder of a run.
-    /// Several files, or a folder of them, are analysed with the same options, one after the other; a folder's by name,
-    /// with 2 before 10
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required = true, value_name = "FILE", help = format!("Signals: {}; or the folder of a run. Several files, or a \
+        folder of them, are analysed with the same options, one after the other; a folder's by name, with 2 before 10", FileKind::known()))]
     pub(crate) files: Vec<PathBuf>,
     /// One verdict for all files: records of one machine by one sensor at one speed, whose evidence is averaged
     #[arg(long, conflicts_with = "against")]

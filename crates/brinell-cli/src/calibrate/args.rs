@@ -2,6 +2,7 @@
 
 use crate::analyze::signal_args::SignalArgs;
 use crate::args::jobs;
+use brinell_io::FileKind;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -47,9 +48,7 @@ pub(crate) struct CalibrateArgs {
     /// Override any key, in every run
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// A measured acceleration to fit to: csv and other text, parquet, mat, hdf5, npy, npz, wav, uff, tdms; or the folder of
-    /// a run
-    #[arg(long, value_name = "FILE|FOLDER")]
+    #[arg(long, value_name = "FILE|FOLDER", help = format!("A measured acceleration to fit to: {}; or the folder of a run", FileKind::known()))]
     pub(crate) measured: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) signal: SignalArgs,

@@ -230,7 +230,7 @@ const fn listed(name: &'static str, source: Source) -> Fixed {
         Count(field) => (field.unit, field.meaning),
         Sum(field) => (field.unit, field.meaning),
         Slip(field) => (field.unit, field.meaning),
-        _ => ("1", ""),
+        _ => panic!("only Count, Sum and Slip are numbers of the engine's list"),
     };
     (name, unit, meaning, source)
 }

@@ -38,7 +38,7 @@ struct List<'a> {
 
 impl List<'_> {
     fn add(&mut self, name: String, unit: &'static str, description: String, quantity: Quantity) {
-        self.channels.push(Channel { name, unit, description, quantity });
+        self.channels.push(Channel { name, unit, description, quantity, bearing: 0 });
     }
 
     /// A roller in names ("1_07") and in descriptions ("roller 7 in row 1").

@@ -30,3 +30,39 @@ fn collect(section: &str, schema: &Json, keys: &mut Vec<(String, String)>) {
         collect(&path, &inner["items"], keys);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{
+        Bearing, Cage, Contact, Defect, DepthGrid, Friction, Housing, Lubricant, Operation, PathMode, Simulation,
+        Support,
+    };
+
+    /// A field without its line in the lists of keys would stay what nobody gave: NaN, or 0.
+    #[test]
+    fn prop_every_field_of_a_scenario_has_a_key() {
+        // Two keys, of which one is given.
+        let is_two = |field: &str| field == "damping";
+        for (section, fields) in [
+            ("", Scenario::FIELDS),
+            ("bearing", Bearing::FIELDS),
+            ("cage", Cage::FIELDS),
+            ("contact", Contact::FIELDS),
+            ("friction", Friction::FIELDS),
+            ("lubricant", Lubricant::FIELDS),
+            ("operation", Operation::FIELDS),
+            ("housing", Housing::FIELDS),
+            ("support", Support::FIELDS),
+            ("defects", Defect::FIELDS),
+            ("defects.shape.depth_map", DepthGrid::FIELDS),
+            ("sensor.path", PathMode::FIELDS),
+            ("simulation", Simulation::FIELDS),
+        ] {
+            for field in fields.iter().filter(|field| !is_two(field)) {
+                let key = (section.to_owned(), (*field).to_owned());
+                assert!(known_keys().contains(&key), "{section}.{field}: no line in document/sections.rs or its kin");
+            }
+        }
+    }
+}

@@ -1,6 +1,5 @@
 //! The model as a system that the solver can integrate.
 
-use super::stability::stable_step;
 use super::{Model, Power, Workspace};
 use crate::solver::System;
 use std::borrow::BorrowMut;
@@ -39,8 +38,7 @@ impl<W: BorrowMut<Workspace>> System for Motion<'_, W> {
     }
 
     fn stable_step(&self) -> f64 {
-        let ws = self.ws.borrow();
-        stable_step(self.model, ws.max_elastic(), ws.film_damping())
+        self.model.longest_step(self.ws.borrow())
     }
 
     fn flow(&self) -> Power {

@@ -1,6 +1,6 @@
 //! Stability limit of the explicit solver: the longest step in which it damps the fastest motions.
 
-use super::Model;
+use super::{Model, Workspace};
 use crate::defect::{SIDES, Side};
 use crate::scenario::ModelKind;
 use crate::solver::DAMPED_CONTACT;
@@ -11,11 +11,16 @@ impl Model {
     pub(crate) fn stable_step_at(&self, elastic: [f64; 2]) -> f64 {
         stable_step(self, elastic, 0.0)
     }
+
+    /// The same at the last evaluation, with the cages' films.
+    pub(crate) fn longest_step(&self, ws: &Workspace) -> f64 {
+        stable_step(self, ws.max_elastic(), ws.film_damping())
+    }
 }
 
 /// Stability limit of the step, s: of a roller whose contacts carry the elastic forces `max_elastic` (inner and outer,
 /// N) at most, and of the cages in films that damp them by at most `film_damping`, N s/m.
-pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f64) -> f64 {
+fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f64) -> f64 {
     if model.kind == ModelKind::Lumped {
         // The lumped model's rollers have no inertia.
         return f64::INFINITY;

@@ -22,6 +22,11 @@ macro_rules! sections {
                 Self { $($field: $crate::scenario::Unset::unset()),+ }
             }
         }
+
+        #[cfg(test)]
+        impl $name {
+            pub(crate) const FIELDS: &'static [&'static str] = &[$(stringify!($field)),+];
+        }
     )+};
 }
 pub(crate) use sections;

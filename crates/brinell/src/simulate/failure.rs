@@ -2,13 +2,15 @@
 
 use crate::defect::SIDES;
 use crate::error::Error;
+use crate::machine::{Machine, Parts};
 use crate::model::{Model, Workspace};
 use crate::solver::StepError;
 
 /// What the solver ran into, in words.
-pub(super) fn explain(error: StepError, model: &Model, ws: &Workspace) -> Error {
-    let contact = suspect(model, ws);
-    let body = |index: usize| body(model, index);
+pub(super) fn explain(error: StepError, machine: &Machine, parts: &Parts) -> Error {
+    let suspects = machine.bearings.iter().zip(&parts.each).map(|(seated, part)| suspect(&seated.model, &part.ws));
+    let contact = suspects.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(String::new(), |(_, words)| words);
+    let body = |index: usize| body(machine, index);
     match error {
         StepError::NonFinite { t, index } => Error::NonFinite { t, body: body(index), contact },
         StepError::Vanished { t, index } => Error::StepVanished { t, body: body(index), contact },
@@ -16,12 +18,12 @@ pub(super) fn explain(error: StepError, model: &Model, ws: &Workspace) -> Error 
 }
 
 /// Body and coordinate of an entry of the state, in words.
-pub(super) fn body(model: &Model, index: usize) -> String {
-    model.layout.name(index % model.layout.dof(), model.element)
+pub(super) fn body(machine: &Machine, index: usize) -> String {
+    machine.name(index % machine.dof())
 }
 
-/// The contact that is not finite, or else the one pressed hardest, in words.
-fn suspect(model: &Model, ws: &Workspace) -> String {
+/// The contact that is not finite, or else the one pressed hardest: its force, N, and in words.
+fn suspect(model: &Model, ws: &Workspace) -> (f64, String) {
     let layout = &model.layout;
     let name =
         |slot: usize| format!("{} {} in row {}", model.element.word(), layout.roller(slot) + 1, layout.row(slot) + 1);
@@ -42,5 +44,5 @@ fn suspect(model: &Model, ws: &Workspace) -> String {
             worst = (size, format!("the pocket of {} carries {size:.4e} N", name(slot)));
         }
     }
-    worst.1
+    worst
 }

@@ -16,12 +16,12 @@ mod switches;
 
 use crate::channel::{self, Channel, Frame};
 use crate::error::{Error, refuse};
+use crate::machine::Machine;
 use crate::model::{Custom, Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::decimate::FACTOR;
 use crate::solver::Work;
-use crate::start;
 use std::ops::ControlFlow;
 
 #[doc(hidden)]
@@ -186,10 +186,32 @@ pub struct Outcome {
     pub sensor: Vec<ChannelRecord>,
 }
 
+/// How a machine's run is recorded; as the keys of `[simulation]` of these names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// s.
+    pub duration_s: f64,
+    /// Samples a second.
+    pub sample_rate_hz: f64,
+    /// Patterns of channels.
+    pub record: Vec<String>,
+    /// How tight the solver is held.
+    pub accuracy: Accuracy,
+    /// Steps that the run may take.
+    pub most_steps: f64,
+    /// From when on statistics count, s.
+    pub settled_s: f64,
+}
+
+/// Samples of a duration (s), both its ends included.
+fn samples_in(duration: f64, rate: f64) -> u64 {
+    (duration * rate * (1.0 + 1e-12)).floor() as u64 + 1
+}
+
 /// A run that is ready to go.
 #[derive(Debug)]
 pub struct Simulation {
-    model: Model,
+    machine: Machine,
     channels: Vec<Channel>,
     filtered: Vec<Channel>,
     /// Where each acceleration of the fast grid goes among them, and its entry of the derivative.
@@ -253,12 +275,42 @@ impl Simulation {
         Self::of(scenario, Model::planned(scenario)?)
     }
 
+    /// Of a machine, recorded as said.
+    ///
+    /// # Errors
+    /// Where it has no state to start from.
+    pub fn of_machine(machine: Machine, recording: &Recording) -> Result<Self, Error> {
+        let (channels, idle_patterns) = channel::chosen(machine.channels(), &recording.record);
+        let sensors = machine.sensors();
+        let of_bearings = (machine.bearings.iter().enumerate())
+            .flat_map(|(k, seated)| channel::filterable(&seated.model).into_iter().map(move |c| c.of_bearing(k)))
+            .filter(|c| channels.iter().any(|r| r.name == c.name));
+        let filtered: Vec<_> = sensors.iter().map(|(_, channel)| channel.clone()).chain(of_bearings).collect();
+        let entry = |c: &Channel| Some(machine.bearing(c.bearing) + c.acceleration_entry()?);
+        let entries = sensors.iter().map(|(entry, _)| Some(*entry)).chain(filtered[sensors.len()..].iter().map(entry));
+        Ok(Self {
+            filtered_entries: entries.enumerate().filter_map(|(place, entry)| Some((place, entry?))).collect(),
+            sensor: None,
+            settled: recording.settled_s,
+            initial: machine.initial()?,
+            samples: samples_in(recording.duration_s, recording.sample_rate_hz),
+            sample_rate: recording.sample_rate_hz,
+            accuracy: recording.accuracy,
+            most_steps: recording.most_steps,
+            channels,
+            filtered,
+            idle_patterns,
+            machine,
+        })
+    }
+
     fn of(scenario: &Scenario, model: Model) -> Result<Self, Error> {
-        let initial = start::state(&model)?;
-        let (channels, idle_patterns) = channel::select(&model, &scenario.sensor, &scenario.simulation.record);
+        let machine = Machine::of_one(model);
+        let (initial, model) = (machine.initial()?, &machine.bearings[0].model);
+        let (channels, idle_patterns) = channel::select(model, &scenario.sensor, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;
         let (ring, others): (Vec<_>, Vec<_>) =
-            channel::filterable(&model).into_iter().partition(|c| c.name.starts_with("outer_a"));
+            channel::filterable(model).into_iter().partition(|c| c.name.starts_with("outer_a"));
         let others = others.into_iter().filter(|c| channels.iter().any(|r| r.name == c.name));
         let mut filtered = channel::sensor_channels(&scenario.sensor);
         let own = filtered.len();
@@ -274,16 +326,16 @@ impl Simulation {
             idle_patterns,
             initial,
             sample_rate,
-            samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64 + 1,
+            samples: samples_in(scenario.simulation.duration_s, sample_rate),
             accuracy: scenario.simulation.accuracy,
             most_steps: scenario.simulation.most_steps,
-            model,
+            machine,
         })
     }
 
-    /// The model.
+    /// The model; of a machine that of its first bearing.
     pub fn model(&self) -> &Model {
-        &self.model
+        &self.machine.bearings[0].model
     }
 
     /// The recorded channels, in the order of rows; time is not among them.

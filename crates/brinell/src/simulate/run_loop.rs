@@ -6,11 +6,10 @@ use super::failure::{body, explain};
 use super::pace::{Pace, Told};
 use super::switches::Switches;
 use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
-use crate::accuracy::settings;
-use crate::channel::Frame;
 use crate::error::Error;
+use crate::machine::{MachineMotion, Parts};
+use crate::model::Power;
 use crate::model::energy::{ContactState, parametric_work};
-use crate::model::{Energy, Motion, Power, Workspace, imbalance};
 use crate::sensor::Sensing;
 use crate::signal::decimate::FACTOR;
 use crate::solver::{Stepper, System, Work};
@@ -46,7 +45,7 @@ impl Pending {
 #[derive(Debug)]
 pub struct Run<S> {
     simulation: S,
-    ws: Workspace,
+    parts: Parts,
     stepper: Stepper<Power>,
     averages: Averages,
     decimator: Decimator,
@@ -65,8 +64,9 @@ pub struct Run<S> {
     pace: Pace,
     energy: EnergyAudit,
     imbalance: Option<f64>,
-    contact_states: [ContactState; 2],
-    switches: Switches,
+    /// Of each bearing, before and after a step.
+    contact_states: Vec<[ContactState; 2]>,
+    switches: Vec<Switches>,
     y: Vec<f64>,
     a: Vec<f64>,
 }
@@ -74,17 +74,23 @@ pub struct Run<S> {
 impl<S: Deref<Target = Simulation>> Run<S> {
     /// At t = 0, to be advanced a few rows at a time.
     pub fn new(simulation: S) -> Self {
-        let model = &simulation.model;
-        let mut ws = Workspace::new(model);
-        let mut motion = Motion { model, ws: &mut ws };
-        let settings = settings(model, simulation.accuracy);
+        let machine = &simulation.machine;
+        let mut parts = Parts::new(machine);
+        let mut motion = MachineMotion { machine, parts: &mut parts };
+        let settings = machine.settings(simulation.accuracy);
         let stepper = Stepper::new(&mut motion, settings, 0.0, &simulation.initial);
         let n = motion.size();
         let rates = &simulation.initial[n / 2..];
-        let mut contact_state = ContactState::new(&model.layout);
-        contact_state.store(model, 0.0, &simulation.initial, &ws);
-        let mut switches = Switches::new(&model.layout);
-        switches.store(&ws);
+        let mut contact_states = Vec::new();
+        let mut switches = Vec::new();
+        for (k, (seated, part)) in machine.bearings.iter().zip(&parts.each).enumerate() {
+            let mut state = ContactState::new(&seated.model.layout);
+            state.store(&seated.model, 0.0, parts.state(machine, k, &simulation.initial), &part.ws);
+            contact_states.push([state.clone(), state]);
+            let mut of = Switches::new(&seated.model.layout);
+            of.store(&part.ws);
+            switches.push(of);
+        }
         let decimator = Decimator::new(simulation.filtered.len());
         // The filter has its last sample by then.
         let end = simulation.samples as f64 / simulation.sample_rate
@@ -102,13 +108,13 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             last: simulation.samples,
             work: SolverWork::default(),
             pace: Pace::new(end, simulation.most_steps),
-            energy: EnergyAudit::from(Energy::of(model, 0.0, &simulation.initial, &ws)),
-            imbalance: (!model.outer_ring_is_fixed()).then_some(0.0),
-            contact_states: [contact_state.clone(), contact_state],
+            energy: EnergyAudit::from(machine.energy(0.0, &simulation.initial, &parts)),
+            imbalance: (!machine.is_held()).then_some(0.0),
+            contact_states,
             switches,
             y: vec![0.0; n],
-            a: vec![0.0; model.layout.dof()],
-            ws,
+            a: vec![0.0; machine.dof()],
+            parts,
             simulation,
         }
     }
@@ -151,9 +157,9 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                 self.next += 1;
             }
             self.averages.pass(&self.stepper);
-            let model = &self.simulation.model;
-            let ws = &mut self.ws;
-            match self.stepper.step(&mut Motion { model, ws }) {
+            let machine = &self.simulation.machine;
+            let parts = &mut self.parts;
+            match self.stepper.step(&mut MachineMotion { machine, parts }) {
                 Ok(flows) => {
                     self.book(flows, observer);
                     // Steps rather than samples: a stiff run may take minutes from one sample to the next.
@@ -170,7 +176,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                     }
                 }
                 Err(error) => {
-                    return Some(End::Failed(explain(error, model, &self.ws)));
+                    return Some(End::Failed(explain(error, machine, &self.parts)));
                 }
             }
         }
@@ -178,11 +184,11 @@ impl<S: Deref<Target = Simulation>> Run<S> {
 
     /// The outcome so far, the end given.
     pub fn outcome(&mut self, end: End) -> Outcome {
-        let model = &self.simulation.model;
+        let machine = &self.simulation.machine;
         let t = self.stepper.t();
         self.y.copy_from_slice(self.stepper.y());
-        model.accelerations(t, &self.y, &mut self.a, &mut self.ws);
-        self.energy.last = Energy::of(model, t, &self.y, &self.ws);
+        machine.accelerations(t, &self.y, &mut self.a, &mut self.parts);
+        self.energy.last = machine.energy(t, &self.y, &self.parts);
         self.work.solver = self.stepper.work();
         Outcome {
             end,
@@ -205,29 +211,31 @@ impl<S: Deref<Target = Simulation>> Run<S> {
     #[must_use]
     pub fn go_on_in(&mut self, other: S) -> bool {
         let names = |s: &Simulation| -> Vec<String> { s.filtered.iter().map(|c| c.name.clone()).collect() };
-        if other.model.layout != self.simulation.model.layout
+        if !other.machine.is_laid_out_as(&self.simulation.machine)
             || other.sample_rate != self.simulation.sample_rate
             || names(&other) != names(&self.simulation)
         {
             return false;
         }
-        let model = &other.model;
-        let mut ws = Workspace::new(model);
-        let settings = settings(model, other.accuracy);
-        let motion = &mut Motion { model, ws: &mut ws };
+        let machine = &other.machine;
+        let mut parts = Parts::new(machine);
+        let settings = machine.settings(other.accuracy);
+        let motion = &mut MachineMotion { machine, parts: &mut parts };
         self.averages.pass(&self.stepper);
         self.stepper.go_on_in(motion, settings);
         self.averages.go_on(&self.stepper);
         let (t, y) = (self.stepper.t(), self.stepper.y());
-        self.energy = EnergyAudit::from(Energy::of(model, t, y, &ws));
-        self.imbalance = (!model.outer_ring_is_fixed()).then_some(0.0);
-        self.contact_states[0].store(model, t, y, &ws);
-        self.switches.store(&ws);
+        self.energy = EnergyAudit::from(machine.energy(t, y, &parts));
+        self.imbalance = (!machine.is_held()).then_some(0.0);
+        for (k, (seated, part)) in machine.bearings.iter().zip(&parts.each).enumerate() {
+            self.contact_states[k][0].store(&seated.model, t, parts.state(machine, k, y), &part.ws);
+            self.switches[k].store(&part.ws);
+        }
         self.pending = Pending::new(&other, &self.decimator);
         self.sensing = other.sensor.as_ref().map(Sensing::new);
         self.last = u64::MAX;
         self.pace = Pace::unbounded();
-        self.ws = ws;
+        self.parts = parts;
         self.simulation = other;
         true
     }
@@ -244,27 +252,30 @@ impl<S: Deref<Target = Simulation>> Run<S> {
 
     /// Why a run of so many steps of such a length does not go on.
     pub(super) fn too_long(&mut self, Told { steps, step, .. }: Told) -> Error {
-        let model = &self.simulation.model;
+        let machine = &self.simulation.machine;
         let held = match self.stepper.hardest() {
             None => String::from("stability: the stiffest contacts, dampers and friction on the lightest parts"),
-            Some(index) => format!("how fast {} changes", body(model, index)),
+            Some(index) => format!("how fast {} changes", body(machine, index)),
         };
         Error::TooLong { steps, most: self.simulation.most_steps, step, held }
     }
 
     /// Audits of an accepted step.
     fn book(&mut self, flows: Power, observer: &mut dyn Observer) {
-        let model = &self.simulation.model;
+        let machine = &self.simulation.machine;
         let (t, y) = (self.stepper.t(), self.stepper.y());
         self.energy.flows += flows;
-        let [before, after] = &mut self.contact_states;
-        after.store(model, t, y, &self.ws);
-        self.energy.parametric += parametric_work(model, before, after);
-        self.contact_states.swap(0, 1);
-        self.switches.count(&self.ws, &mut self.work);
+        for (k, (seated, part)) in machine.bearings.iter().zip(&self.parts.each).enumerate() {
+            let states = &mut self.contact_states[k];
+            let [before, after] = states;
+            after.store(&seated.model, t, self.parts.state(machine, k, y), &part.ws);
+            self.energy.parametric += parametric_work(&seated.model, before, after);
+            states.swap(0, 1);
+            self.switches[k].count(&part.ws, &mut self.work);
+        }
         // Behind the last sample only the filter's lag is left.
         if t * self.simulation.sample_rate <= self.last.saturating_sub(1) as f64 {
-            observer.step(&Frame { model, t, y, a: self.stepper.accelerations(), ws: &self.ws });
+            observer.step(&machine.frame(0, (t, y, self.stepper.accelerations()), &self.parts));
         }
     }
 
@@ -274,22 +285,25 @@ impl<S: Deref<Target = Simulation>> Run<S> {
     /// states: an eighth of the evaluations, and nothing folds.
     fn sample(&mut self, t: f64, observer: &mut dyn Observer) -> ControlFlow<()> {
         let simulation: &Simulation = &self.simulation;
-        let model = &simulation.model;
+        let machine = &simulation.machine;
         if self.next.is_multiple_of(FACTOR as u64) {
             self.stepper.interpolate(t, &mut self.y);
-            model.accelerations(t, &self.y, &mut self.a, &mut self.ws);
+            machine.accelerations(t, &self.y, &mut self.a, &mut self.parts);
             self.work.sample_evaluations += 1;
-            let frame = Frame { model, t, y: &self.y, a: &self.a, ws: &self.ws };
+            let at = (t, &self.y[..], &self.a[..]);
             let index = self.next / FACTOR as u64;
             let row = self.pending.row(index);
             for (value, channel) in row.iter_mut().zip(&simulation.channels) {
-                *value = channel.value(&frame);
+                *value = match channel.machine_entry() {
+                    Some(entry) => self.y[entry],
+                    None => channel.value(&machine.frame(channel.bearing, at, &self.parts)),
+                };
             }
-            if let (Some(worst), Some(now)) = (&mut self.imbalance, imbalance(model, t, &self.y, &self.a, &self.ws)) {
+            if let (Some(worst), Some(now)) = (&mut self.imbalance, machine.imbalance(at, &self.parts)) {
                 *worst = worst.max(now);
             }
             if index < self.last {
-                observer.sample(index, &frame);
+                observer.sample(index, &machine.frame(0, at, &self.parts));
             }
         }
         if self.next == 0 {

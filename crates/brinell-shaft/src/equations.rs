@@ -1,0 +1,207 @@
+//! Equations of motion of a plane of a shaft, and what they say with linear bearings.
+
+use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
+use std::f64::consts::TAU;
+
+/// Matrices of one plane; the other has the same.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equations {
+    /// M.
+    pub mass: DMatrix<f64>,
+    /// K.
+    pub stiffness: DMatrix<f64>,
+    /// C.
+    pub damping: DMatrix<f64>,
+    /// G, by which w couples the planes.
+    pub gyroscopic: DMatrix<f64>,
+}
+
+/// A place of a shaft as a row of numbers: its displacement or tilt in a plane is their product with the coordinates of that plane, and what
+/// a force or a moment does there is the same numbers times it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Port(pub DVector<f64>);
+
+/// A linear bearing or support at a place of the shaft: the force on it is -K (x, y) - C d(x, y)/dt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linear {
+    /// Where.
+    pub port: Port,
+    /// N/m.
+    pub stiffness: [[f64; 2]; 2],
+    /// N s/m.
+    pub damping: [[f64; 2]; 2],
+}
+
+/// Which way the shaft's centre goes round in a natural motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Whirl {
+    /// As the shaft turns.
+    Forward,
+    /// Against it.
+    Backward,
+}
+
+/// A natural motion at a speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    /// Damped natural frequency, Hz.
+    pub frequency: f64,
+    /// Share of critical damping.
+    pub damping_ratio: f64,
+    /// Of most of the shaft; at rest of round bearings either.
+    pub whirl: Whirl,
+}
+
+impl Whirl {
+    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)): the coordinates of X, then those of Y, and their mass.
+    fn of(shape: &DVector<Complex<f64>>, mass: &DMatrix<Complex<f64>>) -> Self {
+        let n = shape.len() / 2;
+        let [x, y] = [0, n].map(|from| shape.rows(from, n).into_owned());
+        let turned = x.dotc(&(mass.view((0, 0), (n, n)) * y)).im;
+        if turned <= 0.0 { Self::Forward } else { Self::Backward }
+    }
+
+    fn reversed(self) -> Self {
+        match self {
+            Self::Forward => Self::Backward,
+            Self::Backward => Self::Forward,
+        }
+    }
+}
+
+impl Equations {
+    /// All 0, of `n` coordinates a plane.
+    pub fn new(n: usize) -> Self {
+        let zeros = || DMatrix::zeros(n, n);
+        Self { mass: zeros(), stiffness: zeros(), damping: zeros(), gyroscopic: zeros() }
+    }
+
+    /// Coordinates of a plane.
+    pub fn size(&self) -> usize {
+        self.mass.nrows()
+    }
+
+    /// The motions that decay in oscillation at the speed `w` (rad/s), by ascending frequency.
+    pub fn modes(&self, bearings: &[Linear], w: f64) -> Vec<Mode> {
+        let n = 2 * self.size();
+        let [mass, damping, stiffness] = self.both_planes(bearings, w);
+        let Some(inverse) = mass.clone().cholesky() else { return Vec::new() };
+        let (spring, damper) = (inverse.solve(&stiffness), inverse.solve(&damping));
+        // Time in units that make frequencies and their squares of one size.
+        let unit = (spring.trace() / n as f64).sqrt().max(1.0);
+        let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+        matrix.view_mut((0, n), (n, n)).fill_with_identity();
+        matrix.view_mut((n, 0), (n, n)).copy_from(&(-spring / (unit * unit)));
+        matrix.view_mut((n, n), (n, n)).copy_from(&(-damper / unit));
+        let complex = mass.map(Complex::from);
+        let rates = matrix.complex_eigenvalues() * Complex::from(unit);
+        let scale = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
+        let mut swinging: Vec<_> = rates.iter().copied().filter(|rate| rate.im > 1e-9 * scale).collect();
+        swinging.sort_by(|a, b| a.im.total_cmp(&b.im));
+        let whirl = |rate: Complex<f64>| {
+            let of = Whirl::of(&shape([&mass, &damping, &stiffness], rate), &complex);
+            if w < 0.0 { of.reversed() } else { of }
+        };
+        let mode = |rate: Complex<f64>| Mode {
+            frequency: rate.im / TAU,
+            damping_ratio: -rate.re / rate.norm(),
+            whirl: whirl(rate),
+        };
+        swinging.into_iter().map(mode).collect()
+    }
+
+    /// Speeds, rad/s and ascending, that are natural frequencies of the shaft that turns with them, without damping; on round bearings
+    /// unbalance excites the forward ones alone.
+    pub fn critical_speeds(&self, bearings: &[Linear]) -> Vec<(f64, Whirl)> {
+        let n = self.size();
+        let [mass, _, stiffness] = self.both_planes(bearings, 0.0);
+        let Some(root) = stiffness.cholesky() else { return Vec::new() };
+        let mass = mass.map(Complex::from);
+        let mut turning = mass.clone();
+        let gyroscopic = self.gyroscopic.map(|g| Complex::new(0.0, g));
+        // K x = w^2 (M x - i G y) and K y = w^2 (M y + i G x), of x and y that go as exp(i w t).
+        turning.view_mut((0, n), (n, n)).copy_from(&(-&gyroscopic));
+        turning.view_mut((n, 0), (n, n)).copy_from(&gyroscopic);
+        let root = root.l().map(Complex::from);
+        let Some(half) = root.solve_lower_triangular(&turning) else { return Vec::new() };
+        let Some(whole) = root.solve_lower_triangular(&half.adjoint()) else { return Vec::new() };
+        let eigen = SymmetricEigen::new(whole);
+        let Some(shapes) = root.ad_solve_lower_triangular(&eigen.eigenvectors) else { return Vec::new() };
+        let largest = eigen.eigenvalues.max();
+        let found = eigen.eigenvalues.iter().zip(shapes.column_iter());
+        let mut speeds: Vec<_> = found
+            .filter(|(value, _)| **value > 1e-12 * largest)
+            .map(|(value, shape)| (value.sqrt().recip(), Whirl::of(&shape.into_owned(), &mass)))
+            .collect();
+        speeds.sort_by(|a, b| a.0.total_cmp(&b.0));
+        speeds
+    }
+
+    /// What unbalances (kg m, and where on the shaft they are, rad from X at t = 0) do at the speed `w`, rad/s: the complex amplitudes u of
+    /// Re(u exp(i w t)), the coordinates of X before those of Y.
+    ///
+    /// `None` where the speed is a natural frequency without damping.
+    pub fn unbalance_response(
+        &self,
+        bearings: &[Linear],
+        w: f64,
+        unbalances: &[(Port, f64, f64)],
+    ) -> Option<DVector<Complex<f64>>> {
+        let n = self.size();
+        let matrices = self.both_planes(bearings, w);
+        let mut force = DVector::from_element(2 * n, Complex::from(0.0));
+        for (port, size, angle) in unbalances {
+            let pull = Complex::from_polar(size * w * w, *angle);
+            for k in 0..n {
+                force[k] += pull * port.0[k];
+                // A quarter of a turn later.
+                force[n + k] -= pull * Complex::i() * port.0[k];
+            }
+        }
+        dynamic(matrices.each_ref(), Complex::new(0.0, w)).lu().solve(&force)
+    }
+
+    /// M, C + w G and K of both planes.
+    fn both_planes(&self, bearings: &[Linear], w: f64) -> [DMatrix<f64>; 3] {
+        let n = self.size();
+        let twice = |of: &DMatrix<f64>| {
+            let mut both = DMatrix::zeros(2 * n, 2 * n);
+            (0..2).for_each(|plane| both.view_mut((plane * n, plane * n), (n, n)).copy_from(of));
+            both
+        };
+        let [mass, mut damping, mut stiffness] = [&self.mass, &self.damping, &self.stiffness].map(twice);
+        damping.view_mut((0, n), (n, n)).copy_from(&(w * &self.gyroscopic));
+        damping.view_mut((n, 0), (n, n)).copy_from(&(-w * &self.gyroscopic));
+        for bearing in bearings {
+            let place = &bearing.port.0 * bearing.port.0.transpose();
+            for i in 0..2 {
+                for j in 0..2 {
+                    let mut spring = stiffness.view_mut((i * n, j * n), (n, n));
+                    spring += bearing.stiffness[i][j] * &place;
+                    let mut damper = damping.view_mut((i * n, j * n), (n, n));
+                    damper += bearing.damping[i][j] * &place;
+                }
+            }
+        }
+        [mass, damping, stiffness]
+    }
+}
+
+/// s^2 M + s C + K.
+fn dynamic([mass, damping, stiffness]: [&DMatrix<f64>; 3], s: Complex<f64>) -> DMatrix<Complex<f64>> {
+    mass.map(|m| s * s * m) + damping.map(|c| s * c) + stiffness.map(Complex::from)
+}
+
+/// The motion of an eigenvalue, by inverse iteration beside it.
+fn shape(matrices: [&DMatrix<f64>; 3], rate: Complex<f64>) -> DVector<Complex<f64>> {
+    let beside = dynamic(matrices, rate * Complex::new(1.0, 1e-7)).lu();
+    // No eigenvector is orthogonal to it but by chance.
+    let mut shape = DVector::from_fn(matrices[0].nrows(), |k, _| Complex::new(1.0, (k as f64 + 1.0).sin()));
+    for _ in 0..3 {
+        if let Some(better) = beside.solve(&shape) {
+            let size = better.norm();
+            shape = better / Complex::from(size);
+        }
+    }
+    shape
+}

@@ -1,0 +1,197 @@
+//! Bearings in a machine, section 25.
+
+use brinell::accuracy::settings;
+use brinell::machine::{Machine, MachineMotion, Mount, Point, Structure};
+use brinell::model::{Model, Motion, Power, Support};
+use brinell::scenario::{Accuracy, LoadOn, Scenario};
+use brinell::simulate::{End, Recording, Signals, Simulation};
+use brinell::solver::{Settings, Stepper, System};
+use brinell::start;
+use brinell_shaft::{Beam, Disc, Material, Part, Port, Reduced, reduce};
+
+const STEEL: Material = Material { youngs_modulus: 211e9, shear_modulus: 81.2e9, density: 7810.0 };
+const LENGTH: f64 = 0.4;
+/// Seats.
+const AT: [f64; 2] = [0.1, 0.3];
+/// Mass and moment of inertia, kg and kg m^2.
+const HOUSING: (f64, f64) = (6.0, 0.05);
+
+/// A shaft of 30 mm with a disc of 2 kg in the middle and the inner rings of `s` on it: rigid, or elastic.
+fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
+    let model = Model::new(s).unwrap();
+    let part = Part { length: LENGTH, outer_diameter: 0.03, inner_diameter: 0.0 };
+    let mut discs = vec![Disc { at: 0.5 * LENGTH, mass: 2.0, diametral_inertia: 3e-3, polar_inertia: 5e-3 }];
+    for at in AT {
+        let (diametral_inertia, polar_inertia) =
+            model.tilt.as_ref().map_or((0.0, 0.0), |t| (t.inner.inertia, t.inner.polar_inertia));
+        discs.push(Disc { at, mass: model.inertia.inner_ring, diametral_inertia, polar_inertia });
+    }
+    let beam = Beam::new(&STEEL, &[part], (&discs, &[]), &AT, 0.02).unwrap();
+    let ports = AT.map(|z| beam.port(z).unwrap());
+    let reduced = reduce(&beam, 2000.0, &ports, 0.005, is_rigid).unwrap();
+    (beam, reduced)
+}
+
+/// That shaft on two bearings, whose outer rings are on their own supports or both in a rigid housing, under `load` in the middle.
+fn on_two(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [f64; 2], unbalance: f64) -> Machine {
+    let (beam, reduced) = shaft(scenarios[0], is_rigid);
+    let all =
+        Port(&beam.equations.mass * nalgebra::DVector::from_fn(beam.equations.size(), |k, _| f64::from(k % 2 == 0)));
+    let mut structure = Structure::shaft(&reduced, &reduced.port(&all));
+    let seat = |z: f64| {
+        let (shift, tilt) = (beam.port(z).unwrap(), beam.tilt_port(z).unwrap());
+        Structure::seat_of_shaft(&reduced.port(&shift), &reduced.port(&tilt))
+    };
+    structure.add_load(&seat(0.5 * LENGTH), load);
+    structure.add_unbalance(&seat(0.5 * LENGTH), unbalance, 0.3);
+    let bearings = [0, 1].map(|k: usize| {
+        let mount = Mount { structure: 0, seat: seat(AT[k]) };
+        let housing = Mount { structure: 1, seat: Structure::seat_of_rigid(HOUSING, AT[k] - 0.5 * LENGTH) };
+        (Model::new(scenarios[k]).unwrap(), [Some(mount), in_housing.then_some(housing)])
+    });
+    let springs = [(1e7, 500.0), (1e5, 5.0)].map(|(stiffness, damping)| Support { stiffness, damping });
+    let housing = Structure::rigid(HOUSING, (springs[0], springs[1]));
+    let structures = [structure].into_iter().chain(in_housing.then_some(housing));
+    let sensor = |(k, name): (usize, &str)| Point {
+        name: name.into(),
+        is_sensor: true,
+        structure: 1,
+        row: Structure::seat_of_rigid(HOUSING, AT[k] - 0.5 * LENGTH).shift[1].clone(),
+    };
+    let points = ["housing1.sensor1", "housing1.sensor2"].into_iter().enumerate().map(sensor);
+    let points = points.filter(|_| in_housing).chain([Point {
+        name: "shaft.y1".into(),
+        is_sensor: false,
+        structure: 0,
+        row: seat(0.5 * LENGTH).shift[1].clone(),
+    }]);
+    let points = points.collect();
+    Machine::new(bearings.into(), structures.collect(), points)
+}
+
+/// A bearing whose load comes from the shaft.
+fn of(preset: &str, model: &str) -> Scenario {
+    let text = format!(
+        "[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1800\nload_n = [0, -1]\nload_on = \"inner-ring\"\ngravity_m_per_s2 = [0, -9.81]\n[support]\ninner_stiffness_n_per_m = 0\ninner_damping_ns_per_m = 0\nouter_stiffness_n_per_m = 5e7\nouter_damping_ns_per_m = 500\n[simulation]\nmodel = \"{model}\"\n"
+    );
+    let mut s = Scenario::from_toml(&text).unwrap_or_else(|e| panic!("{e:?}"));
+    s.operation.load_n = [0.0; 2];
+    s
+}
+
+fn rectangle_on(s: &Scenario) -> Scenario {
+    let mut s = s.clone();
+    s.defects = crate::common::cases::rectangle().defects;
+    s.defects[0].center_deg = -90.0;
+    s
+}
+
+/// Steps to `t`, and the sum of the flows.
+fn run<S: System<Flow = Power>>(system: &mut S, settings: Settings, y: &[f64], t: f64) -> (Stepper<Power>, Power) {
+    let mut stepper = Stepper::new(system, settings, 0.0, y);
+    let mut flows = Power::default();
+    while stepper.t() < t {
+        flows += stepper.step(system).unwrap();
+    }
+    (stepper, flows)
+}
+
+/// One bearing with half the shaft on its inner ring is either of two under a rigid shaft.
+#[test]
+fn analytic_two_bearings_under_a_rigid_shaft_are_one_under_half_the_load() {
+    let s = of("6205", "full");
+    let machine = on_two([&s, &s], (true, false), [300.0, -800.0], 0.0);
+    let (beam, _) = shaft(&s, true);
+    let mut half = s.clone();
+    half.operation.load_n = [150.0, -400.0];
+    half.operation.load_on = LoadOn::InnerRing;
+    half.bearing.inner_ring_mass_kg = 0.5 * beam.mass();
+    let model = Model::new(&half).unwrap();
+    let t = 0.02;
+    // Steps of one length, below the limit of both: a step of another length has another error.
+    let equal = |of: Settings| Settings { tolerance: 1e9, max_step: 5e-7, ..of };
+    let (one, _) =
+        run(&mut Motion::new(&model), equal(settings(&model, Accuracy::Standard)), &start::state(&model).unwrap(), t);
+    let mut motion = MachineMotion::new(&machine);
+    let (two, _) = run(&mut motion, equal(machine.settings(Accuracy::Standard)), &machine.initial().unwrap(), t);
+    assert_eq!(one.work(), two.work());
+    let (mut of_one, mut of_two) = (vec![0.0; 2 * model.layout.dof()], vec![0.0; 2 * machine.dof()]);
+    one.interpolate(t, &mut of_one);
+    two.interpolate(t, &mut of_two);
+    for k in 0..2 {
+        let first = machine.bearing(k);
+        for ring in [model.layout.inner(), model.layout.outer()] {
+            for at in [ring, ring + 1] {
+                let (one, two) = (of_one[at], of_two[first + at]);
+                assert!((one - two).abs() < 1e-9 * of_one[model.layout.inner() + 1].abs(), "{k}: {one:e}, {two:e}");
+            }
+        }
+    }
+}
+
+/// Energy and momentum of an elastic shaft with unbalance on a damaged and a healthy bearing.
+#[test]
+fn analytic_energy_and_momentum_of_a_machine_close() {
+    let healthy = of("6205", "full");
+    let damaged = rectangle_on(&healthy);
+    let rollers = of("NU206", "tilting");
+    for (pair, in_housing) in
+        [([&damaged, &healthy], false), ([&healthy, &damaged], true), ([&rollers, &rollers], true)]
+    {
+        let machine = on_two(pair, (false, in_housing), [0.0, -900.0], 2e-5);
+        let mut motion = MachineMotion::new(&machine);
+        let y = machine.initial().unwrap();
+        let dof = machine.dof();
+        let mut a = vec![0.0; dof];
+        motion.accelerations(0.0, &y, &mut a);
+        let before = machine.energy(0.0, &y, &motion.parts);
+        let (stepper, flows) = run(&mut motion, machine.settings(Accuracy::Reference), &y, 0.04);
+        let (t, y) = (stepper.t(), stepper.y().to_vec());
+        motion.accelerations(t, &y, &mut a);
+        let after = machine.energy(t, &y, &motion.parts);
+        let turnover = flows.load.abs() + flows.drive.abs() + flows.dissipated();
+        let left = after.total() - before.total() - flows.net();
+        assert!(left.abs() < 1e-5 * turnover, "{left:e} of {turnover:e}");
+        let imbalance = machine.imbalance((t, &y, &a), &motion.parts).unwrap();
+        assert!(imbalance < 1e-12, "{imbalance:e}");
+    }
+}
+
+/// A run of a machine: what its sensors see of damage in one bearing.
+#[test]
+fn prop_damage_at_one_end_is_heard_at_both_and_more_there() {
+    let healthy = of("6205", "full");
+    let damaged = rectangle_on(&healthy);
+    let recording = Recording {
+        duration_s: 0.4,
+        sample_rate_hz: 25600.0,
+        record: vec!["housing1.*".into(), "shaft.*".into(), "bearing2.outer_ay".into()],
+        accuracy: Accuracy::Standard,
+        most_steps: 1e7,
+        settled_s: 0.1,
+    };
+    let levels = |scenarios: [&Scenario; 2]| {
+        let simulation =
+            Simulation::of_machine(on_two(scenarios, (false, true), [0.0, -900.0], 2e-6), &recording).unwrap();
+        let names: Vec<&str> = simulation.table().map(|(name, ..)| name).collect();
+        assert_eq!(names, ["bearing2.outer_ay", "shaft.y1", "housing1.sensor1", "housing1.sensor2"]);
+        let mut signals = Signals::new(&simulation).unwrap();
+        let outcome = simulation.run(&mut signals);
+        assert_eq!((outcome.end, outcome.rows), (End::Complete, 10241));
+        assert!(outcome.energy.left_open().is_none(), "{:?}", outcome.energy.relative_residual());
+        assert!(outcome.momentum_imbalance.unwrap() < 1e-11);
+        // The housing is rigid: its ring follows it, and the sensor sits there.
+        let [ring, sag, near, far] = ["bearing2.outer_ay", "shaft.y1", "housing1.sensor1", "housing1.sensor2"]
+            .map(|name| signals.get(name).unwrap()[2560..].to_vec());
+        assert!(sag.iter().all(|y| (-1e-3..0.0).contains(y)));
+        assert!(ring.iter().zip(&far).map(|(a, b)| (a - b).powi(2)).sum::<f64>() < far.iter().map(|a| a * a).sum());
+        [rms(&near), rms(&far)]
+    };
+    let (quiet, loud) = (levels([&healthy, &healthy]), levels([&damaged, &healthy]));
+    assert!(loud[1] > 10.0 * quiet[1] && loud[0] > 1.5 * loud[1], "{quiet:?} {loud:?}");
+    assert!((quiet[0] / quiet[1] - 1.0).abs() < 0.05, "{quiet:?}");
+}
+
+fn rms(x: &[f64]) -> f64 {
+    (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt()
+}
