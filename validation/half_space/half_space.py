@@ -153,8 +153,8 @@ def runs(brinell, folder, ball, grid):
     print("\n| pit, mm | load in the run, N | drop in the run, µm | half-space, µm | ratio |\n| --- | --- | --- | --- | --- |")
     for w in WIDTHS:
         (folder / "pit.toml").write_text(SCENARIO.format(width=w / MM))
-        subprocess.run([brinell, "run", folder / "pit.toml", "-o", folder, "--signals", "csv", "--no-report", "--no-healthy", "--quiet", "--overwrite"], check=True)
-        first = {name: float(value) for name, value in next(csv.DictReader((folder / "signals.csv").read_text().splitlines())).items()}
+        subprocess.run([brinell, "run", folder / "pit.toml", "-o", folder / "out", "--signals", "csv", "--no-report", "--no-healthy", "--quiet", "--overwrite"], check=True)
+        first = {name: float(value) for name, value in next(csv.DictReader((folder / "out" / "signals.csv").read_text().splitlines())).items()}
         load = first["contact1_01_outer_force"]
         own = first["roller1_01_r"] - first["outer_x"] - ball.hertz(load)
         drop = grid.press(ball.gap(grid.x, grid.z) + across(grid.z, w), load)[0] - ball.hertz(load)

@@ -25,9 +25,9 @@ pub(crate) struct ScenarioArgs {
     summary.json              indicators with intervals, frequencies, slip, load zone, audits, assumptions\n  \
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
-    A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with those of another scenario or command \
-    unless --overwrite is given. It removes only files that summary.json (or the other command's manifest) lists as results; finished runs of a \
-    sweep, a calibration, a reproduction or a data set never. No command writes over a file that it reads.\n\n\
+    A run replaces the results of an earlier run of the same scenario in the folder, and those of another scenario or command with --overwrite. \
+    It refuses a folder with any file that is not listed in summary.json (or the other command's list) as a result, and one with finished runs of a \
+    sweep, a calibration, a reproduction or a data set. No command writes over a file that it reads.\n\n\
     Several scenarios run side by side, one to a core, each into FOLDER/STEM, STEM being its file's name without ending. All are checked \
     before any runs; one that fails stops no other.\n\n\
     Ctrl-C ends runs cleanly: what was computed is kept and marked partial.\n\n\

@@ -1,7 +1,7 @@
 //! `brinell open`, and `run --open`: a page of results in the browser.
 
 use crate::failure::Failure;
-use crate::results::pages;
+use crate::results::PAGES;
 use crate::say::say;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -34,10 +34,9 @@ fn page_of(place: &Path) -> Result<PathBuf, Failure> {
     let there = place.metadata();
     let there = there.map_err(|error| Failure::Read(place.to_owned(), error))?;
     let page = if there.is_dir() {
-        let page = pages().map(|name| place.join(name)).find(|p| p.is_file());
+        let page = PAGES.iter().map(|name| place.join(name)).find(|p| p.is_file());
         page.ok_or_else(|| {
-            let names: Vec<&str> = pages().collect();
-            Failure::Usage(format!("{} holds no page of results: none of {}", place.display(), names.join(", ")))
+            Failure::Usage(format!("{} holds no page of results: none of {}", place.display(), PAGES.join(", ")))
         })?
     } else {
         place.to_owned()

@@ -5,6 +5,10 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
+/// Of a file that is read and would be replaced, and of any other that no command made.
+const INPUT: &str = "would be written, and is an input of this command";
+const FOREIGN: &str = "which no list of results there names";
+
 /// A second of a tone as `name`, and the call that analyses it.
 fn signal(here: &Path, name: &str) {
     let tone: Vec<f64> = (0..12_000).map(|k| (0.7 * f64::from(k)).sin()).collect();
@@ -20,11 +24,11 @@ fn run(here: &Path, more: &[&str]) -> Call {
     brinell(here, &[&quick[..], more].concat())
 }
 
-/// That the call is refused because of its input, and changes nothing.
+/// That the call is refused, with these words, and changes nothing.
 #[track_caller]
-fn refused(here: &Path, args: &[&str]) {
+fn refused(here: &Path, args: &[&str], words: &str) {
     let before = results(here);
-    brinell(here, args).exits(2).complains(&["would be written, and is an input of this command"]);
+    brinell(here, args).exits(2).complains(&[words]);
     assert!(results(here) == before, "{args:?} changed something");
 }
 
@@ -33,27 +37,29 @@ fn prop_a_run_never_writes_over_what_it_reads() {
     let folder = folder_with("scenario.toml", SHORT);
     let here = folder.path();
     let args = ["run", "scenario.toml", "-o", ".", "-q"];
-    refused(here, &args);
-    refused(here, &[&args[..], &["--overwrite"]].concat());
+    refused(here, &args, FOREIGN);
+    refused(here, &[&args[..], &["--overwrite"]].concat(), FOREIGN);
     // Of several runs, none over what any of them reads.
     fs::create_dir(here.join("b")).unwrap();
     fs::copy(here.join("scenario.toml"), here.join("b/scenario.toml")).unwrap();
     fs::copy(here.join("scenario.toml"), here.join("b.toml")).unwrap();
-    brinell(here, &["run", "b/scenario.toml", "b.toml", "-o", ".", "-q"])
-        .exits(2)
-        .complains(&["b/scenario.toml would be written", "nothing was run"]);
+    brinell(here, &["run", "b/scenario.toml", "b.toml", "-o", ".", "-q"]).exits(2).complains(&[
+        "b holds scenario.toml",
+        FOREIGN,
+        "nothing was run",
+    ]);
+    // A run's own results, from its own folder.
+    run(here, &["b.toml", "-o", "o"]).exits(0);
+    refused(here, &["run", "o/scenario.toml", "-o", "o", "-q"], INPUT);
     // By standard input as well.
     #[cfg(unix)]
     {
         let before = results(here);
-        let input = fs::File::open(here.join("scenario.toml")).unwrap();
-        let call = command(here, &["run", "-", "-o", ".", "-q"]).stdin(input).output();
+        let input = fs::File::open(here.join("o/scenario.toml")).unwrap();
+        let call = command(here, &["run", "-", "-o", "o", "-q"]).stdin(input).output();
         Call::from(call.unwrap()).exits(2).complains(&["scenario.toml would be written", "(standard input)"]);
         assert!(results(here) == before);
     }
-    // A run's own results, from its own folder.
-    run(here, &["b.toml", "-o", "o"]).exits(0);
-    refused(here, &["run", "o/scenario.toml", "-o", "o", "-q"]);
 }
 
 #[cfg(unix)]
@@ -69,9 +75,18 @@ fn prop_links_do_not_hide_an_input() {
             true => fs::hard_link(here.join("mine.toml"), at).unwrap(),
             false => std::os::unix::fs::symlink("../mine.toml", at).unwrap(),
         }
-        refused(here, &["run", "mine.toml", "-o", name, "-q", "--overwrite"]);
+        refused(here, &["run", "mine.toml", "-o", name, "-q", "--overwrite"], FOREIGN);
         let linked = format!("{name}/scenario.toml");
-        refused(here, &["run", &linked, "-o", name, "-q"]);
+        refused(here, &["run", &linked, "-o", name, "-q"], FOREIGN);
+    }
+    // Results that are inputs by another name.
+    run(here, &["mine.toml", "-o", "o"]).exits(0);
+    for (name, link) in [("hard.toml", true), ("soft.toml", false)] {
+        match link {
+            true => fs::hard_link(here.join("o/scenario.toml"), here.join(name)).unwrap(),
+            false => std::os::unix::fs::symlink("o/scenario.toml", here.join(name)).unwrap(),
+        }
+        refused(here, &["run", name, "-o", "o", "-q", "--overwrite"], INPUT);
     }
     signal(here, "x.csv");
     fs::hard_link(here.join("x.csv"), here.join("y.json")).unwrap();
@@ -96,10 +111,16 @@ fn prop_files_of_damage_are_inputs() {
         fs::write(here.join("s.toml"), text).unwrap();
         brinell(here, &["check", "s.toml"]).exits(0);
         match file {
-            "damage-1.svg" => refused(here, &["defect", "preview", "s.toml", "-o", "."]),
-            _ => refused(here, &["run", "s.toml", "-o", ".", "-q", "--plots", "svg"]),
+            "damage-1.svg" => refused(here, &["defect", "preview", "s.toml", "-o", "."], FOREIGN),
+            _ => refused(here, &["run", "s.toml", "-o", ".", "-q", "--plots", "svg"], FOREIGN),
         }
     }
+    // A drawing in the place of a result.
+    brinell(here, &["defect", "preview", "s.toml", "-o", "p", "--formats", "svg"]).exits(0);
+    fs::copy(here.join("damage-1.svg"), here.join("p/damage-1.svg")).unwrap();
+    let text = fs::read_to_string(here.join("s.toml")).unwrap().replace("plots/waveform.svg", "p/damage-1.svg");
+    fs::write(here.join("s.toml"), text).unwrap();
+    refused(here, &["defect", "preview", "s.toml", "-o", "p", "--overwrite"], INPUT);
 }
 
 #[test]
@@ -129,23 +150,21 @@ fn prop_campaigns_spare_their_inputs() {
         let given = ["--fit", fit, "--target", target, "--budget", "8", "-o", "."];
         [&["calibrate", base], &given[..]].concat()
     };
-    refused(here, &calibrate("best.toml"));
+    refused(here, &calibrate("best.toml"), FOREIGN);
     fs::create_dir(here.join("scenarios")).unwrap();
     for name in ["a.toml", "b.toml"] {
         fs::write(here.join("scenarios").join(name), SHORT).unwrap();
     }
-    refused(here, &["compare", "scenarios/a.toml", "scenarios/b.toml", "-o", "."]);
-    // A file of the same name that is no input is not written over either.
-    fs::write(here.join("base.toml"), SHORT).unwrap();
-    let before = results(here);
-    brinell(here, &calibrate("base.toml"))
-        .exits(2)
-        .complains(&["best.toml, which `brinell calibrate` would write over"]);
-    fs::write(here.join("sweep.json"), "{}").unwrap();
-    let args = typed("sweep base.toml --vary operation.speed_rpm=1000 -o .");
-    brinell(here, &args).exits(2).complains(&["sweep.json"]);
-    fs::remove_file(here.join("sweep.json")).unwrap();
-    assert!(results(here) == before);
+    refused(here, &["compare", "scenarios/a.toml", "scenarios/b.toml", "-o", "."], FOREIGN);
+    // Nor into a folder with anything else in it.
+    fs::create_dir(here.join("o")).unwrap();
+    fs::write(here.join("o/sweep.json"), "{}").unwrap();
+    refused(here, &typed("sweep best.toml --vary operation.speed_rpm=1000 -o o"), FOREIGN);
+    // What it resumes from is no input.
+    fs::remove_file(here.join("o/sweep.json")).unwrap();
+    brinell(here, &typed("sweep best.toml --vary operation.speed_rpm=1500 -q -o o")).exits(0);
+    fs::rename(here.join("best.toml"), here.join("o/best.toml")).unwrap();
+    refused(here, &typed("sweep o/best.toml --vary operation.speed_rpm=1500 -q -o o"), INPUT);
 }
 
 #[cfg(unix)]
@@ -167,7 +186,6 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     signal(here, "x.csv");
     signal(here, "y.csv");
     run(here, &["s.toml", "-o", "o", "--plots", "svg"]).exits(0);
-    fs::write(here.join("o/notes.txt"), "mine").unwrap();
     let before = results(&here.join("o"));
     let words = ["o holds results of `brinell run`", "-o", "--overwrite"];
     analyze(here, "x.csv", &["-o", "o"]).exits(2).complains(&words);
@@ -186,19 +204,21 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     let there = files(&here.join("o"));
     let listed = json(&here.join("o/analysis.json"))["files"].clone();
     let listed: Vec<String> = serde_json::from_value(listed).unwrap();
-    assert!(there.iter().all(|name| name == "notes.txt" || listed.contains(name)), "{there:?}");
-    assert_eq!(there.len(), listed.len() + 1);
+    assert!(there.iter().all(|name| listed.contains(name)), "{there:?}");
+    assert_eq!(there.len(), listed.len());
     // The same signal again is the same results; another signal's are not.
     analyze(here, "x.csv", &["-o", "o", "--plots", "png"]).exits(0);
     assert!(!files(&here.join("o")).iter().any(|name| name.ends_with(".svg")));
     analyze(here, "y.csv", &["-o", "o"]).exits(2).complains(&["o holds results of another signal"]);
     run(here, &["s.toml", "-o", "o"]).exits(2).complains(&["o holds results of `brinell analyze`"]);
     run(here, &["s.toml", "-o", "o", "--overwrite"]).exits(0);
-    assert_eq!(files(&here.join("o")), ["notes.txt", "scenario.toml", "signals.csv", "summary.json"]);
+    assert_eq!(files(&here.join("o")), ["scenario.toml", "signals.csv", "summary.json"]);
     // Finished runs are never removed.
     brinell(here, &[&sweep[..], &["points"]].concat()).exits(0);
     let before = results(&here.join("points"));
-    run(here, &["s.toml", "-o", "points", "--overwrite"]).exits(2).complains(&["`brinell sweep`, with finished runs"]);
+    run(here, &["s.toml", "-o", "points", "--overwrite"])
+        .exits(2)
+        .complains(&["a study or a data set, with finished runs"]);
     assert!(results(&here.join("points")) == before);
 }
 

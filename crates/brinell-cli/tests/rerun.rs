@@ -59,26 +59,21 @@ fn regress_the_same_scenario_again_leaves_no_file_of_the_run_before() {
     let mut sorted = listed.clone();
     sorted.sort();
     assert_eq!(sorted, first, "the summary lists what is there");
-    // The user's own, beside them and among the pictures.
-    for own in ["o/notes.txt", "o/plots/own.svg", "o/my-signals.csv"] {
-        fs::write(here.join(own), "mine").unwrap();
-    }
+    // What a killed run left, and a folder with results of its own, are in nobody's way.
+    fs::write(output.join("signals.mat.partial"), "half").unwrap();
+    brinell(here, &typed("defect preview a.toml -o o/damage --formats svg")).exits(0);
+    fs::remove_file(output.join("signals.csv")).unwrap();
     brinell(here, &run("a.toml", &[])).exits(0).keeps_quiet();
-    let expected = [
-        "my-signals.csv",
-        "notes.txt",
-        "plots/own.svg",
-        "scenario.toml",
-        "signals.parquet",
-        "spectra.parquet",
-        "summary.json",
-    ];
-    assert_eq!(files(&output), expected);
-    // The written scenario is the same scenario; without pictures of anybody's, their folder goes too.
-    fs::remove_file(here.join("o/plots/own.svg")).unwrap();
+    let own = |folder: &Path| {
+        let all = files(folder).into_iter().filter(|name| !name.starts_with("damage/") && !name.ends_with(".partial"));
+        all.collect::<Vec<_>>()
+    };
+    assert_eq!(own(&output), ["scenario.toml", "signals.parquet", "spectra.parquet", "summary.json"]);
+    assert!(!output.join("plots").exists() && output.join("damage/preview.json").exists());
+    // The written scenario is the same scenario.
     fs::copy(output.join("scenario.toml"), here.join("written.toml")).unwrap();
     brinell(here, &run("written.toml", &["--signals", "none"])).exits(0);
-    assert_eq!(files(&output), ["my-signals.csv", "notes.txt", "scenario.toml", "summary.json"]);
+    assert_eq!(own(&output), ["scenario.toml", "summary.json"]);
 }
 
 #[test]
@@ -89,7 +84,6 @@ fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
     let before = crate::common::results(&here.join("o"));
     brinell(here, &run("b.toml", &[])).exits(2).complains(&[
         "o holds results of another scenario",
-        "signals.csv",
         "--overwrite",
         "-o",
     ]);
@@ -102,67 +96,58 @@ fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
 }
 
 #[test]
-fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results() {
+fn prop_a_folder_with_a_file_that_no_manifest_lists_is_refused_and_stays() {
     let folder = folder();
     let here = folder.path();
-    fs::create_dir(here.join("o")).unwrap();
-    fs::write(here.join("o/signals.csv"), "measured").unwrap();
-    for flags in [&[][..], &["--overwrite"]] {
-        brinell(here, &run("a.toml", flags)).exits(2).complains(&["signals.csv"]);
-        assert_eq!(files(&here.join("o")), ["signals.csv"]);
-        assert_eq!(text(here, "o/signals.csv"), "measured");
+    let output = here.join("o");
+    let refused = |name: &str| {
+        let before = crate::common::results(&output);
+        for flags in [&[][..], &["--overwrite"]] {
+            brinell(here, &run("a.toml", flags)).exits(2).complains(&[&format!("o holds {name}, "), "move it", "-o"]);
+        }
+        assert!(crate::common::results(&output) == before, "{name}");
+    };
+    // Into a folder of somebody's.
+    for name in ["signals.csv", "scenario.toml", "notes.txt", "plots/own.svg"] {
+        fs::create_dir_all(output.join("plots")).unwrap();
+        fs::write(output.join(name), SHORT).unwrap();
+        refused(name);
+        fs::remove_dir_all(&output).unwrap();
     }
-    // A summary that names what a run never writes does not get it removed.
-    fs::remove_file(here.join("o/signals.csv")).unwrap();
-    brinell(here, &run("a.toml", &[])).exits(0);
-    let mut summary = json(&here.join("o/summary.json"));
-    summary["files"] = serde_json::json!([
-        "scenario.toml",
-        "signals.parquet",
-        "spectra.parquet",
-        "summary.json",
-        "thesis.txt",
-        "../a.toml",
-        "plots/../../b.toml",
-        3
-    ]);
-    fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
-    fs::write(here.join("o/thesis.txt"), "mine").unwrap();
-    brinell(here, &run("a.toml", &[])).exits(0);
-    assert_eq!(
-        files(&here.join("o")),
-        ["scenario.toml", "signals.parquet", "spectra.parquet", "summary.json", "thesis.txt"]
-    );
-    assert!(here.join("a.toml").exists() && here.join("b.toml").exists());
-    // As written before summaries listed files, and before there were spectra.
-    fs::remove_file(here.join("o/spectra.parquet")).unwrap();
-    summary.as_object_mut().unwrap().remove("files");
-    fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
+    // Beside results.
+    brinell(here, &run("a.toml", &["--plots", "svg"])).exits(0);
+    for name in ["thesis.txt", "signals.csv", "plots/own.svg"] {
+        fs::write(output.join(name), "mine").unwrap();
+        refused(name);
+        fs::remove_file(output.join(name)).unwrap();
+    }
+    // Whatever a list names, nothing outside the folder is touched.
+    let mut summary = json(&output.join("summary.json"));
+    let files = summary["files"].as_array_mut().unwrap();
+    files.extend(["../a.toml", "plots/../../b.toml"].map(Into::into));
+    files.push(3.into());
+    fs::write(output.join("summary.json"), summary.to_string()).unwrap();
     brinell(here, &run("a.toml", &["--signals", "none"])).exits(0);
-    assert_eq!(files(&here.join("o")), ["scenario.toml", "summary.json", "thesis.txt"]);
+    assert_eq!(crate::common::files(&output), ["scenario.toml", "summary.json"]);
+    assert!(here.join("a.toml").exists() && here.join("b.toml").exists());
+    // As written before summaries listed files.
+    summary.as_object_mut().unwrap().remove("files");
+    fs::write(output.join("summary.json"), summary.to_string()).unwrap();
+    fs::remove_file(output.join("scenario.toml")).unwrap();
+    refused("summary.json");
 }
 
 #[test]
-fn regress_a_scenario_that_somebody_wrote_or_changed_is_not_replaced_unasked() {
+fn regress_a_scenario_that_somebody_changed_is_not_replaced_unasked() {
     let folder = folder();
     let here = folder.path();
-    fs::create_dir(here.join("o")).unwrap();
-    let mine = format!("# mine\n{SHORT}");
-    fs::write(here.join("o/scenario.toml"), &mine).unwrap();
-    let refused = || {
-        brinell(here, &run("a.toml", &[]))
-            .exits(2)
-            .complains(&["scenario.toml that brinell did not write", "--overwrite"]);
-    };
-    refused();
-    assert_eq!(files(&here.join("o")), ["scenario.toml"]);
-    assert_eq!(text(here, "o/scenario.toml"), mine);
-    brinell(here, &run("a.toml", &["--overwrite"])).exits(0);
+    brinell(here, &run("a.toml", &[])).exits(0);
     brinell(here, &run("a.toml", &[])).exits(0);
     let noted = text(here, "o/scenario.toml") + "# keep this one\n";
     fs::write(here.join("o/scenario.toml"), &noted).unwrap();
-    refused();
+    brinell(here, &run("a.toml", &[])).exits(2).complains(&["its scenario.toml was changed", "--overwrite"]);
     assert_eq!(text(here, "o/scenario.toml"), noted);
+    brinell(here, &run("a.toml", &["--overwrite"])).exits(0);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The studio's engine, and the files of its page.
 
-use brinell_studio::{PAGE, SharedStudio};
+use brinell_studio::SharedStudio;
+use brinell_studio_page::PAGE;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList};
 

@@ -10,13 +10,14 @@ use crate::markup::escape;
 use crate::number::{linear_ticks, runs, tick_labels};
 use crate::picture::{Paint, Picture};
 use brinell::analysis::STANDARD_GRAVITY;
+use brinell_studio_page::CHART;
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
 pub(crate) const KEPT: usize = 65_536;
 
 /// What the script draws every plot with, in this order.
-pub(crate) const SCRIPT: [&str; 3] =
-    [include_str!("script/plot.js"), include_str!("script/read.js"), include_str!("script/tools.js")];
+pub(crate) const SCRIPT: [&str; 4] =
+    [include_str!("script/plot.js"), CHART, include_str!("script/read.js"), include_str!("script/tools.js")];
 
 /// A curve of a plot.
 pub(crate) struct Curve<'a> {

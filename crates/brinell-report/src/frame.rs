@@ -66,7 +66,8 @@ pub(crate) fn alert(page: &mut String, strong: &str, words: &str) {
 pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
     let _ = writeln!(page, "</main>\n<footer>{}</footer>", escape(footer));
     let parts = [&SCRIPT[..], script, &[include_str!("script/frame.js")]];
-    let script = format!("\n{}", parts.concat().concat());
+    // A script within the page is no module.
+    let script = format!("\n{}", parts.concat().concat()).replace("\nexport ", "\n");
     let _ = writeln!(page, "<script>{script}</script>");
     page.push_str("</body>\n</html>\n");
     let policy = policy(&script);

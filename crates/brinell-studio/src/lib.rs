@@ -14,7 +14,6 @@ mod frames;
 mod judged;
 mod measured;
 mod message;
-mod page;
 mod pen;
 mod report;
 mod spectra;
@@ -24,5 +23,4 @@ mod text;
 
 pub use about::example_file;
 pub use message::{Arrays, Message};
-pub use page::PAGE;
 pub use studio::{SharedStudio, Studio};

@@ -1,7 +1,7 @@
 //! Which files are meant: one, several, or those of a folder.
 
 use crate::failure::Failure;
-use crate::results::{Results, SPECTRA};
+use crate::results::{SPECTRA, SUMMARY, is_data_set};
 use crate::say::one_line;
 use brinell_io::FileKind;
 use brinell_measured::{names_of_runs, run_in};
@@ -55,13 +55,13 @@ fn data_set_of(path: &Path) -> Option<&Path> {
         path.parent().filter(|_| path.ends_with("runs"))
     }
     let folders = [Some(path), above(path), path.parent().and_then(above)];
-    folders.into_iter().flatten().find(|folder| Results::DATA_SET.is_in(folder))
+    folders.into_iter().flatten().find(|folder| is_data_set(folder))
 }
 
 /// The files of signals right in a folder: by their names, and all others that can be read as one.
 fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error| Failure::Read(folder.to_owned(), error);
-    let of_run = Results::RUN.is_in(folder);
+    let of_run = folder.join(SUMMARY).exists();
     let (mut found, mut others) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();

@@ -59,7 +59,7 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
     }
     let file = of_file(&measurement);
     let alike = |previous: &Value| ["path", "records"].iter().all(|key| previous.get(key) == file.get(key));
-    let same = |previous: &Value| previous.is_null() || alike(&previous["file"]);
+    let same = |previous: &Value| alike(&previous["file"]);
     let earlier = earlier(args, &[paths, std::slice::from_ref(&measurement.path)].concat(), same)?;
     let found = examine(measurement, request)?;
     let json = found.to_json(true);

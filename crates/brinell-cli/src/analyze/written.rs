@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::figures::PlotFormat;
 use crate::files::make_folder;
 use crate::inputs::Inputs;
-use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO};
+use crate::results::{ANALYSIS, Earlier, REPORT, Results, SCENARIO};
 use crate::say::{self, pretty};
 use brinell_io::atomic_write;
 use brinell_report::Picture;
@@ -36,8 +36,7 @@ pub(super) fn earlier(
     let Some(folder) = &args.output else {
         return Ok(Earlier::default());
     };
-    let place = Place { kind: Results::ANALYSIS, folder, inputs: &inputs };
-    place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
+    Results::ANALYSIS.earlier(folder, &inputs, args.overwrite, same)
 }
 
 /// That `--json` replaces nothing but an earlier analysis.

@@ -8,7 +8,7 @@ use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::files::{make_folder, safe_name, stem};
 use crate::inputs::Inputs;
-use crate::results::{COMPARISON, Earlier, Place, Results};
+use crate::results::{COMPARISON, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::CompareArgs;
@@ -44,7 +44,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
     let scenarios = scenario_files(sides, &folder);
-    let earlier = earlier(args, sides, &folder, &inputs)?;
+    let same = |previous: &Value| previous["scenarios"] == Value::Object(sides_scenarios(sides));
+    let earlier = Results::COMPARISON.earlier(&folder, &inputs, args.overwrite, same)?;
     make_folder(&folder.join(SCENARIOS))?;
     // Before the runs: a folder that takes no files is reported now.
     let mut ready = Vec::new();
@@ -98,14 +99,6 @@ fn scenario_files(sides: &[Side], folder: &Path) -> Vec<PathBuf> {
     let name = |(k, side): (usize, &Side)| format!("{}-{}.toml", k + 1, safe_name(&side.label));
     let names = sides.iter().enumerate().map(name);
     names.map(|name| folder.join(SCENARIOS).join(name)).collect()
-}
-
-/// Earlier results in the folder that the comparison may replace.
-fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
-    let place = Place { kind: Results::COMPARISON, folder, inputs };
-    let writes = [COMPARISON, PAGE, CSV, PARQUET].map(str::to_owned);
-    let same = |previous: &Value| previous.is_null() || previous["scenarios"] == Value::Object(sides_scenarios(sides));
-    place.earlier(args.overwrite, &writes, same)
 }
 
 /// All runs, or `None` with the errors printed.

@@ -8,7 +8,7 @@ use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::files::safe_name;
 use crate::inputs::Inputs;
-use crate::results::{Place, Results};
+use crate::results::resumable;
 use crate::say::{self, complain, plural, say};
 use crate::stop::stop_flag;
 pub(crate) use args::DatasetArgs;
@@ -54,7 +54,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     for (path, _) in [campaign.plan_file(), campaign.base_file()] {
         inputs.add(path);
     }
-    alone(&folder, &inputs)?;
+    resumable(&folder, &inputs)?;
     let parts = (0..campaign.parts()).filter(|part| args.shard.has(*part));
     let runs: usize = parts.map(|part| campaign.runs_of(part).len()).sum();
     if runs == 0 && !args.quiet {
@@ -145,14 +145,8 @@ fn tell(shard: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
     }
 }
 
-/// That no other command's results lie in the data set's folder.
-fn alone(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
-    let place = Place { kind: Results::DATA_SET, folder, inputs };
-    place.alone()
-}
-
 fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
-    alone(&args.output, &Inputs::default())?;
+    resumable(&args.output, &Inputs::default())?;
     let merged = merge(&args.folders, &args.output)?;
     if args.json {
         say::json(&json!({

@@ -5,7 +5,7 @@ use crate::args::PreviewArgs;
 use crate::failure::Failure;
 use crate::figures::drawn;
 use crate::files::{Source, make_folder, safe_name};
-use crate::results::{PREVIEW, Place, Results};
+use crate::results::{PREVIEW, Results};
 use crate::say::{self, document, say, short};
 use brinell::document::{Loaded, Origin, Provenance};
 use brinell::scenario::Scenario;
@@ -27,9 +27,8 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         damage.view.photo = photos.get_mut(*index).and_then(Option::take);
     }
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
-    let place = Place { kind: Results::PREVIEW, folder: &folder, inputs: &source.inputs() };
     // Any scenario's preview gives way to the next: it takes a moment to make.
-    let earlier = place.earlier(args.overwrite, &[PREVIEW.into()], |_| true)?;
+    let earlier = Results::PREVIEW.earlier(&folder, &source.inputs(), args.overwrite, |_| true)?;
     make_folder(&folder)?;
     let mut ready = Vec::new();
     let mut entries = Vec::new();

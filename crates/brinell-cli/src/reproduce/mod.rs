@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::figures::write_plots;
 use crate::files::make_folder;
 use crate::inputs::Inputs;
-use crate::results::{Place, Results};
+use crate::results::resumable;
 use crate::say::{self, complain, document, plural, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::ReproduceArgs;
@@ -38,8 +38,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     if args.model.is_some() {
         request = request.with_tilting()?;
     }
-    let place = Place { kind: Results::REPRODUCTION, folder: &args.output, inputs: &Inputs::default() };
-    place.alone()?;
+    resumable(&args.output, &Inputs::default())?;
     make_folder(&args.output)?;
     let header = json!({ "campaign": "reproduce" });
     let words = |_: &Value| {

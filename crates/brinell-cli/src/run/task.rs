@@ -7,7 +7,7 @@ use crate::failure::{Failure, print_problems};
 use crate::files::{Source, make_folder};
 use crate::inputs::Inputs;
 use crate::progress::Progress;
-use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SPECTRA, SUMMARY, is_of, is_written};
+use crate::results::{Earlier, REPORT, Results, SCENARIO, SUMMARY, is_of};
 use crate::say::{complain, short};
 use crate::sweep::duration;
 use brinell::document::Loaded;
@@ -93,27 +93,7 @@ pub(super) struct Done {
 
 /// Earlier results in `folder` that a run of the scenario may replace.
 pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
-    let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
-    writes.push(SUMMARY);
-    if writes.contains(&Format::Parquet.file_name()) {
-        writes.push(SPECTRA);
-    }
-    if !args.line_loads.is_empty() {
-        writes.push(line_loads::FILE);
-    }
-    if !args.no_report {
-        writes.push(REPORT);
-    }
-    let writes: Vec<String> = writes.into_iter().map(str::to_owned).collect();
-    let place = Place { kind: Results::RUN, folder, inputs };
-    let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
-    if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
-        return Err(Failure::Usage(format!(
-            "{} holds a {SCENARIO} that brinell did not write in this form; choose another folder with -o, or replace it with --overwrite",
-            folder.display()
-        )));
-    }
-    Ok(earlier)
+    Results::RUN.earlier(folder, inputs, args.overwrite, |_| is_of(folder, loaded))
 }
 
 /// Runs, and writes everything that was requested into the folder, in place of the earlier results.

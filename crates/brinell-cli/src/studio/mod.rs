@@ -9,7 +9,7 @@ mod places;
 use crate::failure::Failure;
 use answer::{Door, Route};
 use brinell_io::hexadecimal;
-use brinell_studio::PAGE;
+use brinell_studio_page::PAGE;
 use clap::Args;
 use http::{Reply, Request};
 use pages::Pages;

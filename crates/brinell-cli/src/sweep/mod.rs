@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::figures::ready_pictures;
 use crate::files::make_folder;
 use crate::files::stem;
-use crate::results::{Place, Results, put};
+use crate::results::{put, resumable};
 use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::SweepArgs;
@@ -47,8 +47,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         tell_points(&points, "", &bad.collect::<Vec<_>>(), "");
         return Ok(ExitCode::SUCCESS);
     }
-    let place = Place { kind: Results::SWEEP, folder: &folder, inputs: &points.source.inputs() };
-    place.alone()?;
+    resumable(&folder, &points.source.inputs())?;
     spare_signals(&points, &work)?;
     make_folder(&folder)?;
     let header = points.read.header();

@@ -108,6 +108,7 @@ fn prop_a_row_in_pieces_is_run_again() {
     let spool = folder.path().join("out/work/part-00001");
     fs::create_dir_all(&spool).unwrap();
     fs::write(spool.join("run-0000004.row"), b"brnrow01").unwrap();
+    fs::copy(folder.path().join("whole/work/campaign.json"), folder.path().join("out/work/campaign.json")).unwrap();
     make(folder.path(), &["-o", "out", "-q"]).exits(0);
     same(&folder.path().join("whole"), &folder.path().join("out"));
 }

@@ -16,22 +16,6 @@ function decode(text, count, log) {
   return values;
 }
 
-const short = (v, digits) => {
-  if (!Number.isFinite(v)) return "no value";
-  const size = Math.abs(v);
-  const text = v !== 0 && (size >= 1e6 || size < 1e-3) ? v.toExponential(digits - 1) : String(Number(v.toPrecision(digits)));
-  return text.replace("-", "−");
-};
-
-function ticks(lo, hi, target) {
-  const raw = (hi - lo) / target, magnitude = 10 ** Math.floor(Math.log10(raw));
-  const step = magnitude * [1, 2, 5, 10].find((m) => m * magnitude >= raw * (1 - 1e-9));
-  const decimals = Math.max(0, -Math.floor(Math.log10(step * (1 + 1e-9))));
-  const list = [];
-  for (let i = Math.ceil(lo / step - 1e-9); i <= Math.floor(hi / step + 1e-9); i++) list.push(i * step);
-  return list.map((v) => [v, (Math.abs(v) < step / 2 ? "0" : v.toFixed(Math.min(decimals, 9))).replace("-", "−")]);
-}
-
 const raised = (power) => String(power).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
 
 // Powers of ten; where there are few, 2 and 5 between them.
@@ -52,12 +36,7 @@ const endOf = (curve) => placeOf(curve, curve.values.length - 1);
 function indexOf(curve, x) {
   const last = curve.values.length - 1;
   if (!curve.places) return Math.min(Math.max(Math.round((x - curve.x0) / curve.dx), 0), last);
-  let lo = 0, hi = last;
-  while (hi - lo > 1) {
-    const middle = (lo + hi) >> 1;
-    if (curve.places[middle] <= x) lo = middle; else hi = middle;
-  }
-  return Math.abs(curve.places[lo] - x) <= Math.abs(curve.places[hi] - x) ? lo : hi;
+  return nearestOf(curve.places, x);
 }
 
 // A velocity has no lines below this frequency: dividing by it would show the window, not the bearing.
@@ -72,33 +51,16 @@ const scaleOf = (chart) => (chart.scale === "dB" ? `dB re 1 ${unitOf(chart)}` : 
 // The same as it is drawn and read.
 function level(chart, v, x) {
   const value = inUnit(chart, v, x);
-  return chart.scale === "dB" ? (value > 0 ? 20 * Math.log10(value) : undefined) : value;
+  return chart.scale === "dB" ? (value > 0 ? decibel(value) : undefined) : value;
 }
 const asMade = (chart) => chart.scale === chart.made && chart.unit === 0;
 
 function path(chart, curve, view, frame, y) {
-  // As on paper: smallest and largest value of each pixel column, or the largest alone.
-  const [l, , r] = frame, { values } = curve, peak = chart.peak;
-  const first = Math.max(0, indexOf(curve, view[0]) - 2), last = Math.min(values.length, indexOf(curve, view[1]) + 3);
-  const across = (i) => l + (r - l) * (placeOf(curve, i) - view[0]) / (view[1] - view[0]);
-  let d = "", pen = false, column = null, kept = [];
-  const flush = () => {
-    for (const i of [...new Set(kept)].sort((a, b) => a - b)) {
-      d += (pen ? "L" : "M") + across(i).toFixed(1) + " " + y(level(chart, values[i], placeOf(curve, i))).toFixed(1);
-      pen = true;
-    }
-  };
-  for (let i = first; i < last; i++) {
-    if (!Number.isFinite(level(chart, values[i], placeOf(curve, i)))) { flush(); kept = []; column = null; pen = false; continue; }
-    const at = Math.floor(across(i));
-    if (at !== column) { flush(); column = at; kept = peak ? [i] : [i, i, i, i]; continue; }
-    if (peak) { if (values[i] > values[kept[0]]) kept[0] = i; continue; }
-    if (values[i] < values[kept[1]]) kept[1] = i;
-    if (values[i] > values[kept[2]]) kept[2] = i;
-    kept[3] = i;
-  }
-  flush();
-  return d;
+  // As on paper: a pixel is a column.
+  const [l, , r] = frame, ends = [Math.max(0, indexOf(curve, view[0]) - 2), Math.min(curve.values.length - 1, indexOf(curve, view[1]) + 2)];
+  const across = (i) => l + (r - l) * (placeOf(curve, i) - view[0]) / (view[1] - view[0]), value = (i) => level(chart, curve.values[i], placeOf(curve, i));
+  const lines = thinned(ends, value, (i) => Math.floor(across(i)), chart.peak);
+  return lines.map((line) => "M" + line.map((i) => `${across(i).toFixed(1)} ${y(value(i)).toFixed(1)}`).join("L")).join("");
 }
 
 function clone(node, parent, attributes, text) {
@@ -265,9 +227,7 @@ function redraw(plot, view) {
 
 function clamp(chart, view) {
   const lo = Math.min(...chart.curves.map((c) => placeOf(c, 0))), hi = Math.max(...chart.curves.map(endOf)), finest = Math.min(...chart.curves.map((c) => c.dx || (hi - lo) / c.values.length));
-  const width = Math.min(Math.max(view[1] - view[0], 8 * finest), hi - lo);
-  const middle = Math.min(Math.max((view[0] + view[1]) / 2, lo + width / 2), hi - width / 2);
-  return [middle - width / 2, middle + width / 2];
+  return within(view, [lo, hi], 8 * finest);
 }
 
 // The overview shades what the waveform shows, and says its middle.

@@ -14,12 +14,8 @@ const pixel = (plot) => (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.fr
 
 // The value nearest to a place; of a spectrum the highest line near the pointer is the one meant.
 function nearest(plot, curve, x) {
-  let index = indexOf(curve, x);
-  if (plot.chart.peak) {
-    const lo = indexOf(curve, x - 3 * pixel(plot)), hi = indexOf(curve, x + 3 * pixel(plot));
-    for (let i = lo; i <= hi; i++) if (curve.values[i] > curve.values[index]) index = i;
-  }
-  return index;
+  const index = indexOf(curve, x), reach = 3 * pixel(plot);
+  return plot.chart.peak ? largestOf(curve.values, index, indexOf(curve, x - reach), indexOf(curve, x + reach)) : index;
 }
 // Whether all curves have their values at the same places: a run and the healthy bearing.
 const alike = ({ curves: [first, ...rest] }) => rest.every((curve) => curve.values.length === first.values.length && placeOf(curve, 0) === placeOf(first, 0) && endOf(curve) === endOf(first));
@@ -67,7 +63,7 @@ function words(plot, x) {
   const distance = Math.abs(x - chart.reference), [one, other] = [chart.reference, x].map((v) => readAt(plot, first, v));
   if (chart.mode === "delta") {
     const rise = short(other - one, 4) + (chart.scale === "dB" ? " dB" : spaced(scaleOf(chart)));
-    const ratio = chart.peak && chart.scale !== "dB" && one > 0 && other > 0 ? ` · ratio ${short(other / one, 3)} (${short(20 * Math.log10(other / one), 3)} dB)` : "";
+    const ratio = chart.peak && chart.scale !== "dB" && one > 0 && other > 0 ? ` · ratio ${short(other / one, 3)} (${short(decibel(other / one), 3)} dB)` : "";
     return `Δ ${at(distance)}${inverse(chart, distance)} · Δ ${rise}${ratio} · ${at(chart.reference)} to ${at(x)}`;
   }
   const pairs = Array.from({ length: ORDERS - 2 }, (_, k) => [chart.reference - (k + 1) * distance, chart.reference + (k + 1) * distance]);
@@ -132,57 +128,22 @@ function home(id) {
 
 function watch(plot) {
   const { svg, chart, name } = plot;
-  const at = (event) => {
-    const box = svg.getBoundingClientRect(), [l, , r] = plot.frame;
-    const x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
-    return [x, plot.view[0] + (plot.view[1] - plot.view[0]) * (Math.min(Math.max(x, l), r) - l) / (r - l)];
-  };
-  let from = null, pinch = null;
   const point = (x) => { plot.cursor = x; tell(plot); };
-  const fingers = new Map();
-  const span = () => [...fingers.values()].sort((a, b) => a - b);
-  const around = (x, factor) => zoom(name, [x - (x - plot.view[0]) * factor, x + (plot.view[1] - x) * factor]);
-  svg.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    const [px, x] = at(event);
-    fingers.set(event.pointerId, px);
-    // Two fingers keep what is under them.
-    if (fingers.size === 2) { const value = (p) => plot.view[0] + (plot.view[1] - plot.view[0]) * (p - plot.frame[0]) / (plot.frame[2] - plot.frame[0]); pinch = span().map(value); from = null; wipe(plot); }
-    else from = [px, x];
-    try { svg.setPointerCapture(event.pointerId); } catch { /* gone already */ }
+  const nearer = (factor) => zoom(name, around(plot.view, (plot.view[0] + plot.view[1]) / 2, factor));
+  pointed(svg, {
+    px: (event) => { const box = svg.getBoundingClientRect(); return (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width; },
+    ends: () => [plot.frame[0], plot.frame[2]],
+    view: () => plot.view,
+    zoom: (view) => zoom(name, view),
+    home: () => home(name),
+    point,
+    leave: () => point(null),
+    shade: (span) => { if (!span) plot.cursor = null; wipe(plot); if (span) wash(plot, Math.min(...span), Math.max(...span)); },
+    set: (x) => set(plot, x),
+    still: () => chart.still,
+    // The wheel alone scrolls the page.
+    slides: () => false,
   });
-  svg.addEventListener("pointermove", (event) => {
-    const [px, x] = at(event), [l, , r] = plot.frame;
-    if (fingers.has(event.pointerId)) fingers.set(event.pointerId, px);
-    if (pinch && fingers.size === 2) {
-      const [p1, p2] = span();
-      if (p2 - p1 < 12) return;
-      const per = (pinch[1] - pinch[0]) / (p2 - p1), lo = pinch[0] - (p1 - l) * per;
-      zoom(name, [lo, lo + (r - l) * per]);
-      return;
-    }
-    if (from && !chart.still) { wipe(plot); wash(plot, Math.min(Math.max(from[0], l), r), Math.min(Math.max(px, l), r)); }
-    else if (px >= l && px <= r) point(x);
-  });
-  svg.addEventListener("pointerup", (event) => {
-    fingers.delete(event.pointerId);
-    if (pinch) { if (!fingers.size) pinch = null; return; }
-    if (!from) return;
-    const [px, x] = at(event), start = from;
-    from = null;
-    plot.cursor = null;
-    if (Math.abs(px - start[0]) > 6 && !chart.still) zoom(name, [Math.min(x, start[1]), Math.max(x, start[1])]);
-    else set(plot, x);
-  });
-  svg.addEventListener("pointercancel", (event) => { fingers.delete(event.pointerId); pinch = null; from = null; point(null); });
-  svg.addEventListener("pointerleave", () => { if (!from) point(null); });
-  svg.addEventListener("dblclick", () => home(name));
-  // A trackpad's pinch arrives as a wheel with Ctrl; the wheel alone scrolls the page.
-  svg.addEventListener("wheel", (event) => {
-    if (!event.ctrlKey && !event.metaKey) return;
-    event.preventDefault();
-    around(at(event)[1], Math.exp(Math.max(-1, Math.min(1, event.deltaY * (event.deltaMode ? 0.05 : 0.004)))));
-  }, { passive: false });
   svg.tabIndex = 0;
   svg.setAttribute("aria-description", "Arrow keys move the view, plus and minus zoom, Escape goes back, Shift with an arrow key moves the cursor, Enter sets it");
   svg.addEventListener("blur", () => point(null));
@@ -196,7 +157,7 @@ function watch(plot) {
       point(Math.min(Math.max(old !== null && old >= a && old <= c ? old + stride : (a + c) / 2, a), c));
       return;
     }
-    const act = { ArrowLeft: () => zoom(name, [a - step, c - step]), ArrowRight: () => zoom(name, [a + step, c + step]), "+": () => around((a + c) / 2, 0.5), "=": () => around((a + c) / 2, 0.5), "-": () => around((a + c) / 2, 2), Escape: () => home(name), 0: () => home(name), Enter: () => set(plot, plot.cursor ?? (a + c) / 2) }[event.key];
+    const act = { ArrowLeft: () => zoom(name, [a - step, c - step]), ArrowRight: () => zoom(name, [a + step, c + step]), "+": () => nearer(0.5), "=": () => nearer(0.5), "-": () => nearer(2), Escape: () => home(name), 0: () => home(name), Enter: () => set(plot, plot.cursor ?? (a + c) / 2) }[event.key];
     if (!act) return;
     event.preventDefault();
     act();

@@ -1,5 +1,6 @@
 // Controls of keys: a range and a number with its unit, its reason, and the engine's words where a value is refused.
-import { h, numberInput, numberOf, short } from "./dom.js";
+import { short } from "./chart.js";
+import { h, numberInput, numberOf } from "./dom.js";
 import { mainSpecs, moreSpecs } from "./schema.js";
 import { get } from "./state.js";
 

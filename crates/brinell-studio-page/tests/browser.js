@@ -22,7 +22,7 @@ const TYPES = {
   ".wasm": "application/wasm",
 };
 /** The engine's module. */
-export const WASM = process.env.STUDIO_WASM || resolve(ROOT, "../../../target/studio/studio.wasm");
+export const WASM = process.env.STUDIO_WASM || resolve(ROOT, "../../target/studio/studio.wasm");
 if (!existsSync(WASM)) throw new Error(`no ${WASM}; .ci/studio makes it`);
 
 export async function launch() {

@@ -1,7 +1,8 @@
 // Edits of a scenario on the studio's page: what is taken, what is refused, and what runs meanwhile. Driven in Chromium, as studio.test.js is.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
-import { digitsOf, numberOf, short, stepped } from "../src/dom.js";
+import { short } from "../src/chart.js";
+import { digitsOf, numberOf, stepped } from "../src/dom.js";
 import { fromLink } from "../src/state.js";
 import { quietly } from "./browser.js";
 import { drag, drop, holds, opened, saved, says, scenario, start, type, until } from "./page.js";

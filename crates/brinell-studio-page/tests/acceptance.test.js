@@ -11,7 +11,7 @@ import { launch, quietly, serve } from "./browser.js";
 import { drag, drop, opened, saved, start, type, until } from "./page.js";
 
 const ROOT = resolve(import.meta.dirname, "..");
-const BRINELL = process.env.BRINELL || resolve(ROOT, "../../../target/release/brinell");
+const BRINELL = process.env.BRINELL || resolve(ROOT, "../../target/release/brinell");
 // Half a second: fourteen whole revolutions at 1800 r/min after the start. In 0.35 s the lines of three examples were found or not by round-off.
 const SHORT_S = 0.5;
 const missing = !existsSync(BRINELL) && `no ${BRINELL}`;
@@ -260,7 +260,7 @@ describe("the page with its engine, held against the command", { skip: missing }
       const drawn = await placed(1);
       assert.ok(Math.abs(drawn.area_mm2 - 12) < 1e-3, `${drawn.area_mm2} mm2`);
       // The scan of the example with its settings; as NPY the same heights.
-      const csv = await readFile(resolve(ROOT, "../examples/scan.csv"), "utf8");
+      const csv = await readFile(resolve(ROOT, "../brinell-studio/examples/scan.csv"), "utf8");
       const rows = csv
         .trim()
         .split("\n")

@@ -1,6 +1,7 @@
 // A measured signal: opened, judged by the engine, shown in the page and laid beside the simulation.
 import { Refused } from "./answers.js";
-import { byId, fill, h, numberInput, numberOf, short, spelled } from "./dom.js";
+import { short } from "./chart.js";
+import { byId, fill, h, numberInput, numberOf, spelled } from "./dom.js";
 
 /** @typedef {(request: Record<string, unknown>) => Promise<any>} Ask */
 

@@ -1,5 +1,6 @@
 // Words and numbers below the views: indicators with their intervals, the verdict, and how the run is going.
-import { byId, digitsOf, h, short, spelled } from "./dom.js";
+import { short } from "./chart.js";
+import { byId, digitsOf, h, spelled } from "./dom.js";
 
 /** @typedef {import("./side.js").Side} Side */
 

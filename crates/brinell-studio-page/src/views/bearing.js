@@ -1,5 +1,6 @@
 // <brinell-bearing>: the bearing from its face in slow motion, from the latest turns of the run.
-import { h, short } from "../dom.js";
+import { short } from "../chart.js";
+import { h } from "../dom.js";
 import { fit, View } from "./view.js";
 import { sheet } from "./theme.js";
 import { font } from "./pen.js";

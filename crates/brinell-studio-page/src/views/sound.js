@@ -1,5 +1,6 @@
 // <brinell-sound>: the last whole turns of the shaft as a loop, at the pace of the machine. Never by itself: only after a click.
-import { h, short } from "../dom.js";
+import { short } from "../chart.js";
+import { h } from "../dom.js";
 import { View } from "./view.js";
 import { sheet } from "./theme.js";
 

@@ -1,7 +1,8 @@
 // The panel over the raceway: surface and row, tools, the damage that is selected. Turns what is drawn into edits of the scenario.
 import { Field } from "./controls.js";
 import { DEEPER, HINTS, TOOLS, degrees, icon, numberBox } from "./damage-tools.js";
-import { h, short } from "./dom.js";
+import { short } from "./chart.js";
+import { h } from "./dom.js";
 import { defectSpecs } from "./schema.js";
 import { Raceway } from "./raceway.js";
 import { notice } from "./readout.js";

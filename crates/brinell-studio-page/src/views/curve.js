@@ -1,12 +1,13 @@
 // <brinell-curve kind="waveform|spectrum|envelope">: a curve with the healthy bearing behind it, zoom, cursor, marks and a table.
-import { fill, h, short, spelled } from "../dom.js";
+import { around, decibel, largestOf, minus, pointed, short, within } from "../chart.js";
+import { fill, h, spelled } from "../dom.js";
 import { fit, seldom } from "./view.js";
 import { sheet } from "./theme.js";
 import { breadth, font } from "./pen.js";
 import { CurveDrawing, ROOM } from "./curve-drawing.js";
 import { paintAxes } from "./plot.js";
 import { Limit } from "./scale.js";
-import { decibel, orders, part, trace } from "./trace.js";
+import { orders } from "./trace.js";
 
 /** @typedef {import("./curve-drawing.js").CurveData} CurveData */
 /** @typedef {import("./trace.js").Curve} Curve */
@@ -113,9 +114,7 @@ export class BrinellCurve extends CurveDrawing {
     if (!this.held) return;
     const full = this.full();
     if (span) {
-      const width = Math.min(Math.max(span[1] - span[0], 8 * this.held.dx), full[1]);
-      const middle = Math.min(Math.max((span[0] + span[1]) / 2, width / 2), full[1] - width / 2);
-      span = [middle - width / 2, middle + width / 2];
+      span = within(span, full, 8 * this.held.dx);
       const home = this.home();
       if (Math.abs(span[0] - home[0]) + Math.abs(span[1] - home[1]) < 1e-6 * full[1]) span = null;
     }
@@ -128,8 +127,7 @@ export class BrinellCurve extends CurveDrawing {
   }
   /** @param {number} factor @param {number} at counted from the start */
   zoomAround(factor, at) {
-    const [from, to] = this.shown();
-    this.zoom([at - (at - from) * factor, at + (to - at) * factor]);
+    this.zoom(around(this.shown(), at, factor));
   }
   draw() {
     const data = this.held;
@@ -187,10 +185,7 @@ export class BrinellCurve extends CurveDrawing {
       nearest = Math.min(Math.max(Math.round((x - curve.x0) / curve.dx), 0), last);
     if (!snap || this.kind === "waveform") return nearest;
     const reach = Math.ceil((snap * (this.view[1] - this.view[0])) / this.frame().width / curve.dx);
-    let best = nearest;
-    for (let i = Math.max(0, nearest - reach); i <= Math.min(last, nearest + reach); i++)
-      if (curve.values[i] > curve.values[best]) best = i;
-    return best;
+    return largestOf(curve.values, nearest, nearest - reach, nearest + reach);
   }
   /** Puts the cursor at a place counted from the start, or takes it away. @param {number | null} place @param {number} [snap] px */
   point(place, snap = 0) {
@@ -223,7 +218,7 @@ export class BrinellCurve extends CurveDrawing {
   words(data, x, index) {
     const unit = spelled(data.unit),
       wave = this.kind === "waveform",
-      value = (/** @type {number} */ v) => `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
+      value = (/** @type {number} */ v) => `${short(v, 4)} ${unit}${this.log ? ` (${minus(decibel(v).toFixed(1))} dB)` : ""}`;
     const other = (/** @type {Curve | null | undefined} */ curve, /** @type {string} */ name) =>
       curve?.values?.length ? ` · ${name} ${short(curve.values[this.sample(curve, x)], 3)}` : "";
     const near = wave ? "" : this.near(data, x);
@@ -297,76 +292,20 @@ export class BrinellCurve extends CurveDrawing {
     if (next !== undefined) this.go(next);
   }
   listen() {
-    const { over } = this;
-    const width = () => over.clientWidth || 1,
-      px = (/** @type {PointerEvent | WheelEvent} */ e) => e.clientX - over.getBoundingClientRect().left;
-    const at = (/** @type {number} */ x) => {
-      const [from, to] = this.shown();
-      return from + (to - from) * Math.min(Math.max(x / width(), 0), 1);
-    };
-    /** @type {Map<number, number>} */
-    const fingers = new Map();
-    /** @type {number | null} */
-    let start = null;
-    /** @type {number[] | null} */
-    let pinch = null;
-    const spread = () => [...fingers.values()].sort((a, b) => a - b);
-    over.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      fingers.set(event.pointerId, px(event));
-      try {
-        over.setPointerCapture(event.pointerId);
-      } catch {
-        /* gone already */
-      }
-      if (fingers.size === 2) {
-        pinch = spread().map(at);
-        start = null;
-        this.shade(null);
-      } else start = px(event);
-    });
-    over.addEventListener("pointermove", (event) => {
-      if (fingers.has(event.pointerId)) fingers.set(event.pointerId, px(event));
-      const [a, b] = spread();
-      if (pinch && fingers.size === 2 && b - a > 12) {
-        // Two fingers keep what is under them.
-        const per = (pinch[1] - pinch[0]) / (b - a),
-          from = pinch[0] - a * per;
-        this.zoom([from, from + width() * per]);
-      } else if (start !== null && Math.abs(px(event) - start) > 4) this.shade([start, Math.min(Math.max(px(event), 0), width())]);
-      if (!pinch) this.point(at(px(event)), SNAP);
-    });
-    const lift = (/** @type {PointerEvent} */ event) => {
-      fingers.delete(event.pointerId);
-      this.shade(null);
-      if (pinch) {
-        if (!fingers.size) pinch = null;
-        return;
-      }
-      const begun = start;
-      start = null;
-      if (begun !== null && event.type === "pointerup" && Math.abs(px(event) - begun) > 6)
-        this.zoom([at(Math.min(begun, px(event))), at(Math.max(begun, px(event)))]);
-    };
-    over.addEventListener("pointerup", lift);
-    over.addEventListener("pointercancel", lift);
-    over.addEventListener("pointerleave", () => {
-      if (start === null && this.root.activeElement !== this.box) this.point(null);
-    });
-    over.addEventListener("dblclick", () => this.zoom(null));
-    over.addEventListener(
-      "wheel",
-      (event) => {
-        const [from, to] = this.shown();
-        if (event.ctrlKey || event.metaKey) this.zoomAround(Math.exp(Math.max(-1, Math.min(1, event.deltaY * 0.004))), at(px(event)));
-        else if (this.zoomed && Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
-          const by = ((to - from) * event.deltaX) / width();
-          this.zoom([from + by, to + by]);
-        } else return;
-        event.preventDefault();
+    pointed(this.over, {
+      px: (event) => event.clientX - this.over.getBoundingClientRect().left,
+      ends: () => [0, this.over.clientWidth || 1],
+      view: () => this.shown(),
+      zoom: (span) => this.zoom(span),
+      home: () => this.zoom(null),
+      point: (place) => this.point(place, SNAP),
+      leave: () => {
+        if (this.root.activeElement !== this.box) this.point(null);
       },
-      { passive: false },
-    );
+      shade: (span) => this.shade(span),
+      still: () => false,
+      slides: () => !!this.zoomed,
+    });
   }
 
   // --- words, table, export ------------------------------------------------------------------------------------------------------------

@@ -1,10 +1,11 @@
 // <brinell-passage>: one roller's passage over the damage: contact length and force over the roller's place.
-import { fill, h, short } from "../dom.js";
+import { nearestOf, short, ticks } from "../chart.js";
+import { fill, h } from "../dom.js";
 import { fit } from "./view.js";
 import { sheet } from "./theme.js";
 import { font, path } from "./pen.js";
 import { paintAxes, PlotView } from "./plot.js";
-import { roundUp, ticks } from "./scale.js";
+import { roundUp } from "./scale.js";
 
 /** @typedef {{ s_mm: Float32Array, length_mm: Float32Array, force_n: Float32Array, healthy_n: number, width_mm: number }} Passage */
 /** @typedef {import("./pen.js").Pen} Pen */
@@ -56,13 +57,7 @@ export class BrinellPassage extends PlotView {
     const share = (px - ROOM.left) / (this.box.clientWidth - ROOM.left - ROOM.right),
       last = data.s_mm.length - 1,
       s = data.s_mm[0] + share * (data.s_mm[last] - data.s_mm[0]);
-    let [low, high] = [0, last];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (data.s_mm[middle] > s) high = middle;
-      else low = middle;
-    }
-    return s - data.s_mm[low] < data.s_mm[high] - s ? low : high;
+    return nearestOf(data.s_mm, s);
   }
   /** @param {number | null} index */
   point(index) {

@@ -1,5 +1,6 @@
 // The buttons and boxes of the panel over the raceway: tools with their hints, numbers with their limits.
-import { numberInput, numberOf, short } from "./dom.js";
+import { short } from "./chart.js";
+import { numberInput, numberOf } from "./dom.js";
 import { notice } from "./readout.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */

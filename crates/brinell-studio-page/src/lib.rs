@@ -1,4 +1,5 @@
-//! The files of the page, for a server: `page/`.
+//! The files of the studio's page, for a server, and what its charts have in common with those of the pages of runs.
+//! The page itself is HTML, CSS and JavaScript; its README lists the modules.
 
 /// A script.
 const JS: &str = "text/javascript; charset=utf-8";
@@ -9,7 +10,7 @@ macro_rules! files {
         /// Every file of the page: its path from the page's root, its type and its content. The first is the page
         /// itself.
         pub const PAGE: &[(&str, &str, &[u8])] =
-            &[$(($name, $kind, include_bytes!(concat!("../page/", $name)))),*];
+            &[$(($name, $kind, include_bytes!(concat!("../", $name)))),*];
     };
 }
 
@@ -18,6 +19,7 @@ files! {
     "studio.css": "text/css; charset=utf-8",
     "src/answers.js": JS,
     "src/assets.js": JS,
+    "src/chart.js": JS,
     "src/controls.js": JS,
     "src/curves.js": JS,
     "src/damage-panel.js": JS,
@@ -66,6 +68,9 @@ files! {
     "src/worker.js": JS,
 }
 
+/// What every chart has in common, as a module; the pages of runs have it in their script.
+pub const CHART: &str = include_str!("chart.js");
+
 #[cfg(test)]
 mod tests {
     use super::PAGE;
@@ -75,13 +80,13 @@ mod tests {
     /// Every script that lies there is served, and nothing else.
     #[test]
     fn prop_the_list_is_what_lies_there() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut found = BTreeSet::from(["index.html".to_owned(), "studio.css".to_owned()]);
         let mut folders = vec![root.join("src")];
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();
-                let name = path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
+                let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
                 match path.extension().and_then(|e| e.to_str()) {
                     _ if path.is_dir() => folders.push(path),
                     Some("js") => drop(found.insert(name)),

@@ -210,7 +210,7 @@ describe("the page", () => {
       await page.keyboard.press("Tab");
       await until(page, () => document.querySelector("dialog .trouble")?.textContent);
       await page.click('dialog button:has-text("Cancel")');
-      await drop(page, "photo-spall.png", (await readFile(resolve(ROOT, "../examples/photo-spall.png"))).toString("base64"));
+      await drop(page, "photo-spall.png", (await readFile(resolve(ROOT, "../brinell-studio/examples/photo-spall.png"))).toString("base64"));
       await page.click('dialog button:has-text("Open")');
       // What was not requested yet is no error.
       await until(page, () => /Still needed/.test(document.querySelector("dialog")?.textContent ?? ""));

@@ -1,4 +1,5 @@
 // Draws a curve, and the marks of the bearing's frequencies over it.
+import { thinned } from "../chart.js";
 import { breadth, font, path } from "./pen.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
@@ -8,10 +9,7 @@ import { breadth, font, path } from "./pen.js";
 /** @typedef {{ name: string, hz: number, nominal_hz: number, found: boolean, harmonics: number, over_noise_db: number }} Line */
 /** @typedef {{ X: (v: number) => number, Y: (v: number) => number, frame: Frame, view: [number, number] }} Space from values to px */
 
-/** dB of a value against one unit; for the logarithmic axis. @param {number} v */
-export const decibel = (v) => 20 * Math.log10(Math.max(v, 1e-30));
-
-/** First and last index of a curve that a view needs, with one beyond each end. @param {Curve} curve @param {[number, number]} view */
+/** First and last index of a curve that a view needs, with one beyond each end. @param {Curve} curve @param {[number, number]} view @returns {[number, number]} */
 export function part(curve, view) {
   const last = curve.values.length - 1;
   return [Math.max(0, Math.floor((view[0] - curve.x0) / curve.dx)), Math.min(last, Math.ceil((view[1] - curve.x0) / curve.dx))];
@@ -23,47 +21,19 @@ export function part(curve, view) {
  */
 export function tracePath(pen, curve, space, peaks) {
   const { values, x0, dx } = curve,
-    { X, Y, view, frame } = space,
-    [first, last] = part(curve, view);
-  if (last <= first) return;
-  const columns = 2 * frame.width,
-    per = (last - first + 1) / columns;
+    ends = part(curve, space.view),
+    // Columns start at fixed samples, so that a curve that is only moved keeps its shape.
+    group = Math.ceil((ends[1] - ends[0] + 1) / (peaks ? 2 : 1) / space.frame.width);
   pen.beginPath();
-  if (per <= (peaks ? 1.5 : 3)) {
-    for (let i = first; i <= last; i++) {
-      const x = X(x0 + i * dx),
-        y = Y(values[i]);
-      if (i === first) pen.moveTo(x, y);
-      else pen.lineTo(x, y);
-    }
-    return;
-  }
-  const group = Math.ceil(per);
-  // Groups start at fixed samples, so that a curve that is only moved keeps its shape.
-  for (let start = first - (first % group); start <= last; start += group) {
-    let low = Infinity,
-      high = -Infinity,
-      lowFirst = true;
-    for (let i = Math.max(start, 0), end = Math.min(start + group, values.length); i < end; i++) {
-      const v = values[i];
-      if (v < low) {
-        low = v;
-        lowFirst = false;
-      }
-      if (v > high) {
-        high = v;
-        lowFirst = true;
-      }
-    }
-    if (!(high >= low)) continue;
-    const x = X(x0 + (start + (group - 1) / 2) * dx);
-    if (peaks) {
-      pen.lineTo(x, Y(high));
-      continue;
-    }
-    pen.lineTo(x, Y(lowFirst ? low : high));
-    pen.lineTo(x, Y(lowFirst ? high : low));
-  }
+  for (const line of thinned(
+    ends,
+    (i) => values[i],
+    (i) => Math.floor(i / group),
+    peaks,
+  ))
+    line.forEach((i, k) =>
+      k ? pen.lineTo(space.X(x0 + i * dx), space.Y(values[i])) : pen.moveTo(space.X(x0 + i * dx), space.Y(values[i])),
+    );
 }
 
 /** @param {Pen} pen @param {Curve} curve @param {Space} space @param {boolean} peaks @param {string} colour @param {number} width @param {number} [alpha] */

@@ -1,7 +1,8 @@
 // Files in and out: scenarios, pictures and scans of damage, measured signals; saving and sharing.
 import { Refused } from "./answers.js";
 import { Field } from "./controls.js";
-import { byId, h, short } from "./dom.js";
+import { short } from "./chart.js";
+import { byId, h } from "./dom.js";
 import { hasToken } from "./engine.js";
 import { asked, line } from "./measured.js";
 import { notice } from "./readout.js";

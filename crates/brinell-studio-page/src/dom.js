@@ -1,4 +1,5 @@
 // Small helpers for elements and numbers on the page.
+import { short } from "./chart.js";
 
 /**
  * An element with properties (aria-* and data-* as attributes) and children.
@@ -29,17 +30,6 @@ export function byId(id) {
   const node = document.getElementById(id);
   if (!node) throw new Error(`no #${id} in the page`);
   return node;
-}
-
-/**
- * A number for reading: so many digits, a true minus.
- * @param {number | null | undefined} value
- */
-export function short(value, digits = 3) {
-  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const size = Math.abs(value);
-  const text = value !== 0 && (size >= 1e6 || size < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
-  return text.replaceAll("-", "−");
 }
 
 /** As many digits as the width of an interval needs two of, three at least. @param {number} low @param {number} high */

@@ -15,7 +15,7 @@ const HERE = import.meta.dirname,
     WORKER = "src/worker.js";
 const IMPORT = /((?:^|\n|;)\s*(?:import|export)\b[^"';]*?["'])(\.{1,2}\/[^"']+)(["'])/g;
 
-const BUILT = join(HERE, "../../../target/studio");
+const BUILT = join(HERE, "../../target/studio");
 const { values: options } = parseArgs({
     options: {
         wasm: { type: "string", default: join(BUILT, "studio.wasm") },

@@ -1,9 +1,9 @@
 // What a curve's view shows: range, axes, and the curves themselves.
-import { short } from "../dom.js";
+import { decibel, short, ticks } from "../chart.js";
 import { path } from "./pen.js";
 import { PlotView } from "./plot.js";
-import { Limit, ticks } from "./scale.js";
-import { decibel, labelRoom, paintBand, paintLines, part, STRIP, trace, tracePath } from "./trace.js";
+import { Limit } from "./scale.js";
+import { labelRoom, paintBand, paintLines, part, STRIP, trace, tracePath } from "./trace.js";
 
 /** @typedef {import("./trace.js").Curve} Curve */
 /** @typedef {import("./trace.js").Line} Line */
