@@ -2,6 +2,7 @@
 
 use crate::message;
 use brinell::analysis::COLUMNS;
+use brinell::signal::objects;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -97,16 +98,9 @@ pub(crate) enum Reply {
     },
 }
 
-/// Objects of answers.
-macro_rules! objects {
-    ($($(#[$about:meta])* $name:ident { $($(#[$how:meta])* $entry:ident: $kind:ty),+ $(,)? })+) => {
-        $(#[derive(Debug, Clone, PartialEq, Serialize)] $(#[$about])*
-        pub(crate) struct $name { $($(#[$how])* pub(crate) $entry: $kind),+ })+
-    };
-}
-
 objects! {
     /// Why a request has no answer.
+    #[derive(Clone, PartialEq)]
     Cause { key: Option<String>, line: Option<usize>, message: String }
 
     /// What there is to choose.
