@@ -19,12 +19,9 @@ pub(crate) fn differ(request: &Value) -> Answer<Reply> {
     let ratios: Vec<(String, Ratio)> = HEADLINES.into_iter().filter_map(compared).collect();
     let apart = |r: &Ratio| r.interval.is_some_and(|(low, high)| low > 1.0 || high < 1.0);
     let headline = format!("B against A: {}; {}.", damage(a, b), levels(&ratios, apart));
-    let one = |(name, r): (String, Ratio)| answers::Ratio {
-        name,
-        value: r.value,
-        apart: apart(&r),
-        low: r.interval.map(|i| i.0),
-        high: r.interval.map(|i| i.1),
+    let one = |(name, r): (String, Ratio)| {
+        let (low, high) = r.interval.unzip();
+        answers::Ratio { name, value: r.value, apart: apart(&r), low, high }
     };
     Ok(Reply::Differ { headline, ratios: ratios.into_iter().map(one).collect() })
 }

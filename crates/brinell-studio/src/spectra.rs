@@ -42,25 +42,17 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Rep
     let (Some(spectrum), Some(envelope)) = (found.spectrum, found.envelope) else {
         return Reply::Settling { samples: 0, settling: true };
     };
-    let lines = (named.iter().zip(&found.lines))
-        .map(|(name, line)| {
-            // A comb near that of a part without damage belongs to another part, or to nobody.
-            let line = line.as_ref().filter(|_| name.defect.is_some());
-            let hz = line.map(|l| l.frequency);
-            let present = hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
-            let present = present.unwrap_or_default().into_iter().filter(|l| l.false_alarm <= FALSE_ALARM);
-            let present: Vec<f64> = present.map(|l| l.snr_db).collect();
-            Line {
-                name: name.name,
-                hz,
-                nominal_hz: name.hz,
-                found: hz.is_some(),
-                harmonics: present.len(),
-                over_noise_db: present.iter().copied().reduce(f64::max),
-                defect: name.defect,
-            }
-        })
-        .collect();
+    let lines = named.iter().zip(&found.lines).map(|(Named { name, hz: nominal_hz, defect }, line)| {
+        // A comb near that of a part without damage belongs to another part, or to nobody.
+        let hz = line.as_ref().filter(|_| defect.is_some()).map(|l| l.frequency);
+        let present = hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
+        let present = present.unwrap_or_default().into_iter().filter(|l| l.false_alarm <= FALSE_ALARM);
+        let present: Vec<f64> = present.map(|l| l.snr_db).collect();
+        let (found, over_noise_db) = (hz.is_some(), present.iter().copied().reduce(f64::max));
+        let (nominal_hz, harmonics, defect) = (*nominal_hz, present.len(), *defect);
+        Line { name, hz, nominal_hz, found, harmonics, over_noise_db, defect }
+    });
+    let lines = lines.collect();
     Reply::Spectra {
         samples: length,
         settling: bench.recording.moments.count() == 0,

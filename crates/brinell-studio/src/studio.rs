@@ -217,29 +217,20 @@ fn geometry(scenario: &Scenario) -> Geometry {
 
 /// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples since the last edit.
 fn indicators(bench: &Bench) -> Reply {
-    let number = |name: String, unit: String, value, interval: Option<(f64, f64)>, has_interval| Number {
-        name,
-        unit,
-        value,
-        low: interval.map(|i| i.0),
-        high: interval.map(|i| i.1),
-        has_interval,
-    };
     let Some((outcome, findings)) = &bench.finished else {
         let of = spectra::moments(bench);
-        let quantities = [
-            ("RMS", "m/s^2", of.rms),
-            ("peak", "m/s^2", of.peak),
-            ("crest factor", "1", of.crest),
-            ("kurtosis", "1", of.kurtosis),
-        ];
-        let one = |(name, unit, value): (&str, &str, _)| number(name.into(), unit.into(), value, None, None);
-        return Reply::Levels { settled: of.samples > 0, quantities: quantities.map(one) };
+        let one = |name: &str, unit: &str, value| {
+            let (name, unit) = (name.to_owned(), unit.to_owned());
+            Number { name, unit, value, low: None, high: None, has_interval: None }
+        };
+        let (rms, peak) = (one("RMS", "m/s^2", of.rms), one("peak", "m/s^2", of.peak));
+        let quantities = [rms, peak, one("crest factor", "1", of.crest), one("kurtosis", "1", of.kurtosis)];
+        return Reply::Levels { settled: of.samples > 0, quantities };
     };
     let (scenario, simulation) = (&bench.loaded.scenario, bench.simulation());
     let one = |q: Quantity| {
-        let interval = q.interval();
-        number(q.name, q.unit, q.value, interval, Some(q.spread != Spread::Without))
+        let ((low, high), has_interval) = (q.interval().unzip(), Some(q.spread != Spread::Without));
+        Number { name: q.name, unit: q.unit, value: q.value, low, high, has_interval }
     };
     Reply::Indicators {
         settled: findings.drifts.is_empty(),

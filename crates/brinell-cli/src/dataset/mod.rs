@@ -114,13 +114,13 @@ fn tell_failures(failures: &[(usize, String)]) {
 
 objects! {
     /// What `generate` did.
-    Ran<'a> {
-        folder: String, complete: bool, shard: Runs, interrupted: bool, failures: Vec<Failed<'a>>, warnings: &'a [String],
+    Ran {
+        folder: String, complete: bool, shard: Runs, interrupted: bool, failures: Vec<Failed>, warnings: Vec<String>,
     }
     /// Runs of the shard.
     Runs { runs: usize, done: usize, before: usize, to_go: usize }
     /// Why a run has no result.
-    Failed<'a> { run: usize, reason: &'a str }
+    Failed { run: usize, reason: String }
     /// What `merge` did.
     Joined<'a> { folder: String, files: &'a Merged }
     /// What `check` found.
@@ -132,21 +132,15 @@ objects! {
 }
 
 /// What [`tell`] and [`tell_failures`] say, as JSON.
-fn summary<'a>(
-    shard: &ShardSummary,
-    left: usize,
-    folder: &Path,
-    failures: &'a [(usize, String)],
-    heed: &'a [String],
-) -> Ran<'a> {
-    let failures = failures.iter().map(|(run, reason)| Failed { run: *run, reason });
+fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)], heed: &[String]) -> Ran {
+    let failures = failures.iter().map(|(run, reason)| Failed { run: *run, reason: reason.clone() });
     Ran {
         folder: folder.display().to_string(),
         complete: shard.whole,
         shard: Runs { runs: shard.runs, done: shard.done, before: shard.before, to_go: left },
         interrupted: shard.interrupted,
         failures: failures.collect(),
-        warnings: heed,
+        warnings: heed.to_vec(),
     }
 }
 

@@ -98,13 +98,13 @@ fn fate(out_of_range: OutOfRange) -> &'static str {
 
 objects! {
     /// A data set before it runs.
-    Planned<'a> {
-        name: &'a str, runs: usize, files: usize, design: &'static str, seed: u64, classes: Vec<Class<'a>>,
-        splits: Vec<Split>, varies: Vec<&'a str>, signals: Vec<&'a str>, held_out_runs: usize, survey: Looked,
+    Planned {
+        name: String, runs: usize, files: usize, design: &'static str, seed: u64, classes: Vec<Class>,
+        splits: Vec<Split>, varies: Vec<String>, signals: Vec<String>, held_out_runs: usize, survey: Looked,
         bytes: f64, shard: Cost, warnings: Vec<String>,
     }
     /// Runs of a class.
-    Class<'a> { label: usize, name: &'a str, runs: usize }
+    Class { label: usize, name: String, runs: usize }
     /// Runs of a split, by class.
     Split { name: &'static str, runs_of_classes: Vec<usize> }
     /// Runs looked at, those of them whose values make no scenario, and what becomes of these.
@@ -114,21 +114,21 @@ objects! {
 }
 
 /// The same as JSON.
-pub(super) fn json<'a>(campaign: &'a Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize) -> Planned<'a> {
+pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize) -> Planned {
     let (plan, draws) = (campaign.plan(), campaign.draws());
     let classes = plan.classes.iter().enumerate();
     let splits = draws.splits().into_iter();
     let Costs { bytes, simulated_s, at_a_time, wall_s } = Costs::of(campaign, survey, runs, threads);
     Planned {
-        name: &plan.name,
+        name: plan.name.clone(),
         runs: draws.runs(),
         files: campaign.parts(),
         design: plan.design.word(),
         seed: plan.seed,
-        classes: classes.map(|(label, c)| Class { label, name: &c.name, runs: draws.runs_of(label) }).collect(),
+        classes: classes.map(|(label, c)| Class { label, name: c.name.clone(), runs: draws.runs_of(label) }).collect(),
         splits: splits.map(|(part, runs_of_classes)| Split { name: part.word(), runs_of_classes }).collect(),
-        varies: draws.parameters().iter().map(|p| p.key.as_str()).collect(),
-        signals: campaign.signals().iter().map(|s| s.name.as_str()).collect(),
+        varies: draws.parameters().iter().map(|p| p.key.clone()).collect(),
+        signals: campaign.signals().iter().map(|s| s.name.clone()).collect(),
         held_out_runs: (0..draws.runs()).filter(|run| draws.is_held_out(*run)).count(),
         survey: Looked { runs: survey.runs, no_scenario: survey.unfit, then: fate(plan.out_of_range) },
         bytes: bytes.round(),
