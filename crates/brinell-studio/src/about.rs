@@ -1,6 +1,6 @@
 //! What the page offers before anything runs.
 
-use crate::answers::{About, Example, Offered, Reply};
+use crate::answers::{About, Example, Offered, Reply, Text};
 use crate::report::{Answer, Trouble};
 use crate::{pen, text};
 use brinell::analysis::NAMED;
@@ -60,7 +60,7 @@ pub(crate) fn example(request: &Value) -> Answer<Reply> {
     let (_, text) = (EXAMPLES.iter().find(|(n, _)| *n == name))
         .ok_or_else(|| Trouble::of(format!("no example is named {name:?}")))?;
     let (_, toml) = pen::resolved(text::read(text)?, (*text).to_owned(), example_file)?;
-    Ok(Reply::Example { toml })
+    Ok(Reply::Example(Text { toml }))
 }
 
 /// The first sentence of the comment on top of an example.

@@ -14,91 +14,37 @@ type Reference = message::Reference<'static>;
 #[serde(untagged)]
 pub(crate) enum Reply {
     About(About),
-    Example {
-        toml: String,
-    },
-    Normal {
-        toml: String,
-        scenario: Value,
-        all: Value,
-    },
+    Example(Text),
+    Normal(Normal),
     Open(Box<Opened>),
-    Tables {
-        tables: Vec<Table>,
-    },
+    Tables(Tables),
     Take {},
     Advance(Advanced),
-    Spectra {
-        samples: usize,
-        settling: bool,
-        spectrum: Spectrum,
-        envelope: Spectrum,
-        lines: Vec<Line>,
-    },
+    Spectra(Spectra),
     /// `spectra` of too few samples.
-    Settling {
-        samples: usize,
-        settling: bool,
-    },
+    Settling(Settling),
     Verdict(Verdict),
     Judge(Box<Judged>),
-    Differ {
-        headline: String,
-        ratios: Vec<Ratio>,
-    },
+    Differ(Differing),
     /// `indicators` of a run from t = 0 that is done.
-    Indicators {
-        settled: bool,
-        quantities: Vec<Number>,
-        warnings: Vec<String>,
-        steps: u64,
-        evaluations: u64,
-    },
+    Indicators(Indicators),
     /// `indicators` before that, and of a live one.
-    Levels {
-        settled: bool,
-        quantities: [Number; 4],
-    },
-    Sound {
-        rate_hz: f64,
-        turns: f64,
-        x: Reference,
-    },
-    Damage {
-        defects: Vec<Seen>,
-    },
-    Passage {
-        s_mm: Reference,
-        length_mm: Reference,
-        force_n: Reference,
-        healthy_n: Option<f64>,
-        width_mm: f64,
-    },
+    Levels(Levels),
+    Sound(Sound),
+    Damage(Damage),
+    Passage(Passage),
     Outline(Outline),
     /// `scratch` and `brush`.
-    Drawn {
-        shape: Value,
-        center_mm: [f64; 2],
-        length_mm: f64,
-        width_mm: f64,
-    },
-    Save {
-        name: String,
-        r#type: &'static str,
-        bytes: Reference,
-    },
-    Listen {
-        channels: Vec<Listed>,
-        run: Option<MadeBy>,
-    },
+    Drawn(Drawn),
+    Save(Saved),
+    Listen(Listened),
     /// Of a request that fails.
-    Refused {
-        ok: bool,
-        problems: Vec<Cause>,
-    },
+    Refused(Refused),
 }
 
 objects! {
+    /// Where there is no answer.
+    Refused { ok: bool, problems: Vec<Cause> }
     /// Why a request has no answer.
     #[derive(Clone, PartialEq)]
     Cause { key: Option<String>, line: Option<usize>, message: String }
@@ -112,6 +58,11 @@ objects! {
     Offered { name: &'static str, words: &'static str, element: &'static str }
     /// An example to choose.
     Example { name: &'static str, words: String }
+
+    /// An example.
+    Text { toml: String }
+    /// A scenario in full.
+    Normal { toml: String, scenario: Value, all: Value }
 
     /// An opened bearing.
     Opened {
@@ -128,6 +79,8 @@ objects! {
         inner_mm: f64, outer_mm: f64, pitch_mm: f64, element_mm: f64, length_mm: f64,
         rows: usize, elements: usize, element: &'static str,
     }
+    /// Tables that were made.
+    Tables { tables: Vec<Table> }
     /// A table of damage.
     Table { name: String, bytes: Reference }
 
@@ -143,6 +96,10 @@ objects! {
     /// The same of a row's cage and rolling elements.
     Row { cage: Reference, orbit: Reference, spin: Reference, inner_n: Reference, outer_n: Reference }
 
+    /// Spectra of the signal and of its envelope.
+    Spectra { samples: usize, settling: bool, spectrum: Spectrum, envelope: Spectrum, lines: Vec<Line> }
+    /// What there is instead of them.
+    Settling { samples: usize, settling: bool }
     /// Amplitudes; band and mean are an envelope's.
     Spectrum {
         df: f64, values: Reference,
@@ -172,14 +129,25 @@ objects! {
         warnings: Vec<String>, used: Vec<String>, levels: Vec<String>, from_s: f64, rate_hz: f64, unit: String,
         x: Reference, spectrum: Spectrum, envelope: Spectrum, lines: Vec<Line>,
     }
+    /// B beside A.
+    Differing { headline: String, ratios: Vec<Ratio> }
     /// An indicator of B over that of A.
     Ratio { name: String, value: f64, apart: bool, low: Option<f64>, high: Option<f64> }
+    /// Numbers of a run.
+    Indicators { settled: bool, quantities: Vec<Number>, warnings: Vec<String>, steps: u64, evaluations: u64 }
+    /// The same of samples alone.
+    Levels { settled: bool, quantities: [Number; 4] }
     /// A number of a run.
     Number {
         name: String, unit: String, value: Option<f64>, low: Option<f64>, high: Option<f64>,
         #[serde(skip_serializing_if = "Option::is_none")] has_interval: Option<bool>,
     }
 
+    /// A loop to listen to.
+    Sound { rate_hz: f64, turns: f64, x: Reference }
+
+    /// All damage.
+    Damage { defects: Vec<Seen> }
     /// Damage seen from above.
     Seen {
         defect: usize, on: &'static str, roller: Option<usize>, row: usize, center_deg: f64, axial_offset_mm: f64,
@@ -190,12 +158,20 @@ objects! {
     Grid {
         ds_mm: f64, dz_mm: f64, s0_mm: f64, z0_mm: f64, columns: usize, rows: usize, depth_um: Reference,
     }
+    /// One rolling element at rest, at places over a defect.
+    Passage { s_mm: Reference, length_mm: Reference, force_n: Reference, healthy_n: Option<f64>, width_mm: f64 }
+    /// A shape, and where its middle is on the stroke.
+    Drawn { shape: Value, center_mm: [f64; 2], length_mm: f64, width_mm: f64 }
     /// The shape of a file.
     Outline {
         shape: Value, notes: Vec<String>,
         length_mm: Option<f64>, width_mm: Option<f64>, area_mm2: Option<f64>,
     }
 
+    /// A file with a run's channels.
+    Saved { name: String, r#type: &'static str, bytes: Reference }
+    /// A signal's file.
+    Listened { channels: Vec<Listed>, run: Option<MadeBy> }
     /// What a file states of a channel.
     Listed {
         name: String, samples: Option<u64>, rate_hz: Option<f64>, rate_missing: Option<String>,

@@ -1,6 +1,6 @@
 //! Damage as the page draws it: seen from above, and under one roller.
 
-use crate::answers::{Grid, Reply, Seen};
+use crate::answers::{Damage, Grid, Passage, Reply, Seen};
 use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
@@ -19,7 +19,8 @@ pub(crate) fn seen(bench: &Bench, arrays: &mut Arrays) -> Reply {
     let model = bench.simulation().model();
     let stated = &bench.loaded.scenario.defects;
     let all = stated.iter().zip(&model.defects).enumerate();
-    Reply::Damage { defects: all.map(|(k, (of, defect))| one(k, of, defect, arrays)).collect() }
+    let defects = all.map(|(k, (of, defect))| one(k, of, defect, arrays)).collect();
+    Reply::Damage(Damage { defects })
 }
 
 fn one(k: usize, of: &scenario::Defect, defect: &Defect, arrays: &mut Arrays) -> Seen {
@@ -86,11 +87,11 @@ pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answ
         force.push(model.force_over(defect, side, u, approach));
     }
     let places_mm: Vec<f64> = places.iter().map(|s| 1e3 * s).collect();
-    Ok(Reply::Passage {
+    Ok(Reply::Passage(Passage {
         s_mm: arrays.rounded(&places_mm),
         length_mm: arrays.rounded(&lengths),
         force_n: arrays.rounded(&force),
         healthy_n: heaviest,
         width_mm: 1e3 * whole,
-    })
+    }))
 }

@@ -1,6 +1,6 @@
 //! How bearing B differs from bearing A: found damage and ratios of indicators, in words.
 
-use crate::answers::{self, Reply};
+use crate::answers::{self, Differing, Reply};
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{HEADLINES, indicator_words};
 use brinell::signal::ratio::{Ratio, ratio};
@@ -23,7 +23,7 @@ pub(crate) fn differ(request: &Value) -> Answer<Reply> {
         let (low, high) = r.interval.unzip();
         answers::Ratio { name, value: r.value, apart: apart(&r), low, high }
     };
-    Ok(Reply::Differ { headline, ratios: ratios.into_iter().map(one).collect() })
+    Ok(Reply::Differ(Differing { headline, ratios: ratios.into_iter().map(one).collect() }))
 }
 
 /// An indicator of a verdict.
@@ -105,7 +105,7 @@ mod tests {
     }
 
     fn said(a: &Value, b: &Value) -> String {
-        let Ok(Reply::Differ { headline, .. }) = differ(&json!({ "a": a, "b": b })) else {
+        let Ok(Reply::Differ(Differing { headline, .. })) = differ(&json!({ "a": a, "b": b })) else {
             panic!("two verdicts differ in some way");
         };
         headline

@@ -1,6 +1,6 @@
 //! A verdict as the page gets it, and a run's channels as a file.
 
-use crate::answers::{self, Cells, Estimated, Found, Reply, Verdict};
+use crate::answers::{self, Cells, Estimated, Found, Reply, Saved, Verdict};
 use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
@@ -72,5 +72,5 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
         .map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '-' })
         .collect();
     let ending = format.name();
-    Ok(Reply::Save { name: format!("{stem}.{ending}"), r#type: kind, bytes: arrays.bytes(&bytes) })
+    Ok(Reply::Save(Saved { name: format!("{stem}.{ending}"), r#type: kind, bytes: arrays.bytes(&bytes) }))
 }

@@ -1,6 +1,6 @@
 //! A measured file: what it states of its signals, and one of them judged by that and by what was given.
 
-use crate::answers::{Judged, Line, Listed, MadeBy, Reply, Spectrum};
+use crate::answers::{Judged, Line, Listed, Listened, MadeBy, Reply, Spectrum};
 use crate::judged;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
@@ -72,7 +72,7 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Reply> {
         });
     }
     let run = run.map(|run| MadeBy { from_s: run.scenario.settled_s(), bearing: run.scenario.bearing.preset });
-    Ok(Reply::Listen { channels, run })
+    Ok(Reply::Listen(Listened { channels, run }))
 }
 
 /// What was given of a signal.

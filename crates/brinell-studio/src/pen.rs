@@ -1,6 +1,6 @@
 //! Damage that is drawn, or read from a file, as shapes of a scenario.
 
-use crate::answers::{Outline, Reply};
+use crate::answers::{Drawn, Outline, Reply};
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use crate::text;
@@ -51,7 +51,7 @@ fn number(request: &Value, key: &str) -> Answer<f64> {
 /// What is drawn, between its least and its greatest s and z, mm, with its middle at a place of the stroke.
 fn drawn(shape: Shape, [low, high]: [[f64; 2]; 2], center_mm: [f64; 2]) -> Answer<Reply> {
     let [length_mm, width_mm] = [0, 1].map(|k| high[k] - low[k]);
-    Ok(Reply::Drawn { shape: stated(shape)?, center_mm, length_mm, width_mm })
+    Ok(Reply::Drawn(Drawn { shape: stated(shape)?, center_mm, length_mm, width_mm }))
 }
 
 /// `scratch`: the area under a round pen.

@@ -1,6 +1,6 @@
 //! Spectra, lines and the verdict of the signal since a bearing was opened; a loop to listen to.
 
-use crate::answers::{Line, Moments, Reply, Spectrum};
+use crate::answers::{Line, Reply, Settling, Sound, Spectra, Spectrum};
 use crate::bench::Bench;
 use crate::judged;
 use crate::message::Arrays;
@@ -20,16 +20,11 @@ const HARMONICS: usize = 8;
 /// Chance of a false alarm below which a harmonic counts.
 const FALSE_ALARM: f64 = 1e-3;
 
-/// RMS, peak, crest factor and kurtosis since the bearing was opened.
-pub(crate) fn moments(bench: &Bench) -> Moments {
-    judged::moments(&bench.recording.moments)
-}
-
 /// Of the latest 2^k samples, `longest` at most.
 pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Reply {
     let most = longest.min(bench.recording.samples.len());
     if most < FEWEST {
-        return Reply::Settling { samples: 0, settling: true };
+        return Reply::Settling(Settling { samples: 0, settling: true });
     }
     let length = 1 << most.ilog2();
     let x = bench.recording.latest(length);
@@ -40,7 +35,7 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Rep
     let searches: Vec<LineSearch> = named.iter().map(|n| LineSearch::new(n.hz)).collect();
     let found = StreamSpectra::of(&x, fs, length, band, &searches);
     let (Some(spectrum), Some(envelope)) = (found.spectrum, found.envelope) else {
-        return Reply::Settling { samples: 0, settling: true };
+        return Reply::Settling(Settling { samples: 0, settling: true });
     };
     let lines = named.iter().zip(&found.lines).map(|(Named { name, hz: nominal_hz, defect }, line)| {
         // A comb near that of a part without damage belongs to another part, or to nobody.
@@ -53,7 +48,7 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Rep
         Line { name, hz, nominal_hz, found, harmonics, over_noise_db, defect }
     });
     let lines = lines.collect();
-    Reply::Spectra {
+    Reply::Spectra(Spectra {
         samples: length,
         settling: bench.recording.moments.count() == 0,
         spectrum: Spectrum::new(spectrum.frequency_step, &spectrum.amplitude, arrays),
@@ -63,7 +58,7 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Rep
             ..Spectrum::new(envelope.spectrum.frequency_step, &envelope.spectrum.amplitude, arrays)
         },
         lines,
-    }
+    })
 }
 
 /// A frequency of the bearing that is sought.
@@ -144,5 +139,5 @@ pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Reply> {
     }
     let highest = body.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let scale = if highest > 0.0 { 1.0 / highest } else { 0.0 };
-    Ok(Reply::Sound { rate_hz: fs, turns, x: arrays.singles(body.iter().map(|v| (v * scale) as f32)) })
+    Ok(Reply::Sound(Sound { rate_hz: fs, turns, x: arrays.singles(body.iter().map(|v| (v * scale) as f32)) }))
 }

@@ -1,6 +1,6 @@
 //! Requests and their answers.
 
-use crate::answers::{Advanced, Geometry, Number, Opened, Orders, Reply};
+use crate::answers::{Advanced, Geometry, Indicators, Levels, Normal, Number, Opened, Orders, Refused, Reply};
 use crate::bench::Bench;
 use crate::message::{Arrays, Message};
 use crate::report::{Answer, Trouble};
@@ -59,7 +59,7 @@ fn answered(of: impl FnOnce(&mut Arrays) -> Answer<Reply>) -> Vec<u8> {
         Ok(reply) => (reply, true),
         Err(Trouble(problems)) => {
             arrays = Arrays::default();
-            (Reply::Refused { ok: false, problems }, false)
+            (Reply::Refused(Refused { ok: false, problems }), false)
         }
     };
     let mut json = serde_json::to_value(reply).unwrap_or_default();
@@ -157,7 +157,7 @@ impl Studio {
             done: bench.finished.is_some(),
             live: bench.live,
             x: arrays.rounded(&x),
-            moments: spectra::moments(bench),
+            moments: judged::moments(&bench.recording.moments),
             frames: (request["frames"] == true).then(|| bench.recording.frames.fresh(arrays)),
         }))
     }
@@ -167,7 +167,7 @@ impl Studio {
 fn normal(request: &Value) -> Answer<Reply> {
     let (loaded, text) = pen::asked(request)?;
     let toml = text::plain(&text)?;
-    Ok(Reply::Normal { scenario: text::stated(&toml), toml, all: text::stated(&loaded.scenario.to_toml()) })
+    Ok(Reply::Normal(Normal { scenario: text::stated(&toml), toml, all: text::stated(&loaded.scenario.to_toml()) }))
 }
 
 /// What the page knows of an opened bearing.
@@ -218,25 +218,25 @@ fn geometry(scenario: &Scenario) -> Geometry {
 /// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples since the last edit.
 fn indicators(bench: &Bench) -> Reply {
     let Some((outcome, findings)) = &bench.finished else {
-        let of = spectra::moments(bench);
+        let of = judged::moments(&bench.recording.moments);
         let one = |name: &str, unit: &str, value| {
             let (name, unit) = (name.to_owned(), unit.to_owned());
             Number { name, unit, value, low: None, high: None, has_interval: None }
         };
         let (rms, peak) = (one("RMS", "m/s^2", of.rms), one("peak", "m/s^2", of.peak));
         let quantities = [rms, peak, one("crest factor", "1", of.crest), one("kurtosis", "1", of.kurtosis)];
-        return Reply::Levels { settled: of.samples > 0, quantities };
+        return Reply::Levels(Levels { settled: of.samples > 0, quantities });
     };
     let (scenario, simulation) = (&bench.loaded.scenario, bench.simulation());
     let one = |q: Quantity| {
         let ((low, high), has_interval) = (q.interval().unzip(), Some(q.spread != Spread::Without));
         Number { name: q.name, unit: q.unit, value: q.value, low, high, has_interval }
     };
-    Reply::Indicators {
+    Reply::Indicators(Indicators {
         settled: findings.drifts.is_empty(),
         quantities: quantities(scenario, simulation, outcome, findings).into_iter().map(one).collect(),
         warnings: plausibility::after(scenario, simulation, outcome, findings),
         steps: outcome.work.solver.steps,
         evaluations: outcome.work.solver.evaluations,
-    }
+    })
 }

@@ -1,6 +1,6 @@
 //! The tables of damage (section 19) made beside the bearings that run: by another engine, whose tables are handed over.
 
-use crate::answers::{Reply, Table};
+use crate::answers::{Reply, Table, Tables};
 use crate::message::Arrays;
 use crate::pen;
 use crate::report::{Answer, Trouble};
@@ -15,7 +15,7 @@ pub(crate) fn made(request: &Value, arrays: &mut Arrays) -> Answer<Reply> {
     Model::new(&loaded.scenario).map_err(Error::from)?;
     let all = if request["bytes"] == true { in_bytes() } else { Vec::new() };
     let table = |(name, bytes): (_, Vec<u8>)| Table { name, bytes: arrays.bytes(&bytes) };
-    Ok(Reply::Tables { tables: all.into_iter().map(table).collect() })
+    Ok(Reply::Tables(Tables { tables: all.into_iter().map(table).collect() }))
 }
 
 /// `take`: has what another engine made.
