@@ -21,7 +21,6 @@ use brinell::scenario::{Bearing, ContactDamping, Element, GeometryLaw, Scenario,
 use brinell::simulate::Simulation;
 use brinell::statics::StaticLoadZone;
 use brinell_study::runner::forecast;
-use serde_json::json;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
@@ -38,7 +37,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     };
     if args.json {
         let mut json = brinell::derived::to_json(s, model, &d);
-        json["steps"] = json!(cost.map(|cost| cost.steps.round()));
+        json["steps"] = cost.map(|cost| cost.steps.round()).into();
         say::json(&json);
         return Ok(ExitCode::SUCCESS);
     }

@@ -14,10 +14,10 @@ use brinell::defect::fit::{Fit, FitSettings, Segment};
 use brinell::defect::simplify::{Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
+use brinell::signal::objects;
 use brinell_damage::plan::{self, Contour};
 use entry::{chosen, print, print_entry};
 use preview::preview;
-use serde_json::{Value, json};
 use std::process::ExitCode;
 
 /// Most points a shape is written with.
@@ -221,24 +221,26 @@ fn errors_um(fit: &Fit) -> [[f64; 2]; 2] {
     ]
 }
 
+objects! {
+    /// A fit, and how far it is off.
+    Fitted { order: usize, samples: usize, width_error_um: Off, depth_error_um: Off, segments: Vec<Piece> }
+    /// Errors over the samples.
+    Off { rms: f64, largest: f64 }
+    /// Coefficients of a segment.
+    Piece { from_mm: f64, to_mm: f64, width_mm: Vec<f64>, depth_um: Vec<f64> }
+}
+
 /// What the fit says, as JSON.
-fn fit_json(fit: &Fit, args: &FitArgs) -> Value {
-    let segments = fit.segments.iter().map(|g| {
-        json!({
-            "from_mm": mm(g.from),
-            "to_mm": mm(g.to),
-            "width_mm": sound(&g.width, 1e3),
-            "depth_um": sound(&g.depth, 1e6),
-        })
+fn fit_json(fit: &Fit, args: &FitArgs) -> Fitted {
+    let segments = fit.segments.iter().map(|g| Piece {
+        from_mm: mm(g.from),
+        to_mm: mm(g.to),
+        width_mm: sound(&g.width, 1e3),
+        depth_um: sound(&g.depth, 1e6),
     });
-    let [width, depth] = errors_um(fit);
-    json!({
-        "order": args.order,
-        "samples": args.samples,
-        "width_error_um": { "rms": width[0], "largest": width[1] },
-        "depth_error_um": { "rms": depth[0], "largest": depth[1] },
-        "segments": segments.collect::<Vec<_>>(),
-    })
+    let [width_error_um, depth_error_um] = errors_um(fit).map(|[rms, largest]| Off { rms, largest });
+    let segments = segments.collect();
+    Fitted { order: args.order, samples: args.samples, width_error_um, depth_error_um, segments }
 }
 
 fn random(args: &RandomArgs) -> Result<(), Failure> {

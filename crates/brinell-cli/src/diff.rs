@@ -5,9 +5,10 @@ use crate::files;
 use crate::results::scenario_file;
 use crate::say::{self, one_line, say};
 use brinell::document::{Loaded, Origin, Provenance};
+use brinell::signal::objects;
 use brinell_study::campaign::{Differing, differing};
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -32,13 +33,8 @@ pub(crate) fn diff(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let [a, b] = [read(&args.a)?, read(&args.b)?];
     let differences = differing(&[&a, &b]);
     if args.json {
-        let all: Vec<Value> = differences.iter().map(json_of).collect();
-        let json = json!({
-            "a": args.a.display().to_string(),
-            "b": args.b.display().to_string(),
-            "differences": all,
-        });
-        say::json(&json);
+        let [a, b] = [&args.a, &args.b].map(|path| path.display().to_string());
+        say::json(&Both { a, b, differences: differences.iter().map(of_key).collect() });
         return Ok(ExitCode::SUCCESS);
     }
     if differences.is_empty() {
@@ -53,19 +49,22 @@ fn read(path: &Path) -> Result<Loaded, Failure> {
     files::scenario(&scenario_file(path), &[], true)
 }
 
-fn json_of(Differing { key, unit, values }: &Differing) -> Value {
-    let side = |p: Option<&Provenance>| {
-        p.map(|p| {
-            // Most of TOML's values are JSON's.
-            let value = serde_json::from_str(&p.value);
-            json!({
-                "value": value.unwrap_or_else(|_| Value::String(p.value.clone())),
-                "origin": origin(p).0,
-                "reason": p.reason(),
-            })
-        })
+objects! {
+    /// Two scenarios.
+    Both<'a> { a: String, b: String, differences: Vec<OfKey<'a>> }
+    /// What each has of a key.
+    OfKey<'a> { key: &'a str, unit: &'static str, a: Option<Stated>, b: Option<Stated> }
+    /// A value, and who gave it.
+    Stated { value: Value, origin: &'static str, reason: String }
+}
+
+fn of_key<'a>(Differing { key, unit, values }: &Differing<'a>) -> OfKey<'a> {
+    let side = |p: &Provenance| {
+        // Most of TOML's values are JSON's.
+        let value = serde_json::from_str(&p.value).unwrap_or_else(|_| p.value.as_str().into());
+        Stated { value, origin: origin(p).0, reason: p.reason() }
     };
-    json!({ "key": key, "unit": unit, "a": side(values[0]), "b": side(values[1]) })
+    OfKey { key, unit, a: values[0].map(side), b: values[1].map(side) }
 }
 
 /// Who gave a value, in JSON's word and behind the value of a table.

@@ -10,7 +10,7 @@ use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
 use brinell::scenario::{Element, Scenario};
 use brinell_measured::Called;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -72,7 +72,7 @@ fn list() {
 
 /// A line of the list as JSON.
 fn listed(known: KnownBearing) -> Value {
-    let mut json = json!({ "name": known.name(), "title": known.title() });
+    let mut json = Value::from_iter([("name", known.name()), ("title", known.title())]);
     match known {
         KnownBearing::Catalogue(entry) => {
             json["kind"] = "catalogue".into();
@@ -90,19 +90,17 @@ fn shown(known: KnownBearing, class: Option<ClearanceClass>) -> Value {
     let mut json = listed(known);
     match known {
         KnownBearing::Catalogue(entry) => {
-            let of = |v: &catalogue::Value| {
-                let cell = json!({ "value": v.value, "source": v.source, "estimated": v.estimated });
-                (v.key.clone(), cell)
-            };
-            let numbers: serde_json::Map<String, Value> = entry.facts.iter().chain(&entry.values).map(of).collect();
-            json["numbers"] = numbers.into();
-            let classes: serde_json::Map<String, Value> =
-                classes(entry).map(|(class, [low, high])| (class.name().to_owned(), json!([low, high]))).collect();
-            json["diametral_clearance_um"] = classes.into();
+            for v in entry.facts.iter().chain(&entry.values) {
+                json["numbers"][&v.key] = serde_json::to_value(v).unwrap_or_default();
+            }
+            json["diametral_clearance_um"] =
+                classes(entry).map(|(class, ends)| (class.name(), Vec::from(ends))).collect();
             if let Some((class, middle)) = class.and_then(|c| Some((c, middle(entry, c)?))) {
                 json["clearance_class"] = class.name().into();
-                json["numbers"][CLEARANCE] =
-                    json!({ "value": middle, "source": of_the_name(class), "estimated": true });
+                let cell = &mut json["numbers"][CLEARANCE];
+                cell["value"] = middle.into();
+                cell["source"] = of_the_name(class).into();
+                cell["estimated"] = true.into();
             }
         }
         KnownBearing::DataSet(b) => {

@@ -3,7 +3,7 @@
 
 use anstyle::AnsiColor;
 pub(crate) use brinell_report::{plural, short, shown_unit, twelve_digits};
-use serde_json::Value;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Result, Write};
@@ -47,7 +47,7 @@ pub(crate) fn document(text: &str) {
 }
 
 /// Writes JSON to standard output.
-pub(crate) fn json(value: &Value) {
+pub(crate) fn json(value: &impl Serialize) {
     document(pretty(value).trim_end());
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn wrote(files: impl IntoIterator<Item = impl AsRef<Path>>) {
 }
 
 /// JSON as files hold it.
-pub(crate) fn pretty(value: &Value) -> String {
+pub(crate) fn pretty(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 

@@ -6,7 +6,6 @@ use brinell::channel::Frame;
 use brinell::result::{Quantity, RunResult, Spread};
 use brinell::simulate::{Observer, Simulation};
 use brinell_io::atomic_write;
-use serde_json::json;
 use std::collections::HashSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -68,7 +67,7 @@ impl CaseObserver {
         if let Some(path) = &self.curves {
             make_folder(path.parent().unwrap_or(Path::new("")))?;
             let curves = Curves::of(finished, self.from_start.pocket_forces());
-            atomic_write(path, json!(curves).to_string())?;
+            atomic_write(path, serde_json::to_string(&curves).unwrap_or_default())?;
         }
         let drop = finished.findings.passes.best().first().and_then(|pass| {
             let defect = &finished.simulation.model().defects[pass.defect];

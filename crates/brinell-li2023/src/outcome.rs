@@ -4,9 +4,10 @@ use crate::Error;
 use crate::figures::with_interval;
 use crate::sensitivity::Flip;
 use crate::{Basis, Claim, Found, Judged, Verdict};
+use brinell::signal::objects;
 use brinell_io::{Cells, Column, Table};
 use brinell_report::{ClaimCard, ClaimPart, Tagged, Tone};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// A claim with what came out, and which assumptions turn it.
@@ -141,32 +142,64 @@ pub(crate) fn held(all: &[Outcome], basis: Basis) -> (usize, usize) {
 }
 
 /// claims.csv and claims.json.
-pub(crate) fn write(all: &[Outcome], header: &Value, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn write(all: &[Outcome], claims: &Claims, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let csv = table(all).write_csv(folder.join("claims.csv"))?;
-    let mut object = header.clone();
-    object["claims"] = all.iter().map(claim_json).collect();
     let path = folder.join("claims.json");
-    let text = serde_json::to_string_pretty(&object).unwrap_or_default() + "\n";
+    let text = serde_json::to_string_pretty(claims).unwrap_or_default() + "\n";
     brinell_io::atomic_write(&path, text.as_bytes())?;
     Ok(vec![csv, path])
 }
 
-fn claim_json(outcome: &Outcome) -> Value {
-    let found = |f: &Found| json!({ "what": f.what, "value": f.value, "low": f.interval.map(|i| i.0), "high": f.interval.map(|i| i.1), "unit": f.unit });
-    let statements = outcome.statements();
-    let statements: Vec<Value> = statements
-        .iter()
-        .map(|(words, verdict, all)| {
-            json!({ "statement": words, "verdict": verdict.words(), "ours": all.iter().map(found).collect::<Vec<_>>() })
-        })
-        .collect();
-    let flips = outcome.flips.iter().map(|f| {
-        json!({ "assumption": f.variant.id, "about": f.variant.about, "is": f.variant.words, "verdict": f.verdict.words() })
-    });
-    json!({
-        "id": outcome.claim.id, "place": outcome.claim.place, "sentence": outcome.claim.sentence, "paper": outcome.claim.paper,
-        "verdict": outcome.judged.verdict.words(), "in_words": outcome.judged.words(outcome.claim), "about": outcome.claim.basis.words(), "depends_on": flips.collect::<Vec<_>>(), "statements": statements, "note": outcome.claim.note,
-    })
+objects! {
+    /// claims.json.
+    Claims {
+        brinell: &'static str, length: String, starts: u32, base_toml: &'static str, interval: &'static str,
+        #[serde(skip_serializing_if = "Option::is_none")] sensitivity: Option<Value>,
+        #[serde(skip_serializing_if = "Option::is_none")] laws: Option<&'static str>,
+        claims: Vec<Judgement>,
+    }
+    /// A claim of `claims.json`.
+    Judgement {
+        id: &'static str, place: &'static str, sentence: &'static str, paper: &'static str, verdict: &'static str,
+        in_words: String, about: &'static str, depends_on: Vec<Turning>, statements: Vec<Stated>, note: &'static str,
+    }
+    /// An assumption that turns it, and what it then is.
+    Turning { assumption: &'static str, about: &'static str, is: &'static str, verdict: &'static str }
+    /// A statement with the numbers behind it.
+    Stated { statement: String, verdict: &'static str, ours: Vec<Ours> }
+    /// One of them with its 95 % interval.
+    Ours { what: String, value: Option<f64>, low: Option<f64>, high: Option<f64>, unit: &'static str }
+}
+
+pub(crate) fn judgement(outcome: &Outcome) -> Judgement {
+    let Outcome { claim, judged, flips, .. } = outcome;
+    let ours = |f: &Found| {
+        let (low, high) = f.interval.unzip();
+        Ours { what: f.what.clone(), value: f.value, low, high, unit: f.unit }
+    };
+    let stated = |(statement, verdict, all): (String, Verdict, &[Found])| Stated {
+        statement,
+        verdict: verdict.words(),
+        ours: all.iter().map(ours).collect(),
+    };
+    let turning = |Flip { variant, verdict }: &Flip| Turning {
+        assumption: variant.id,
+        about: variant.about,
+        is: variant.words,
+        verdict: verdict.words(),
+    };
+    Judgement {
+        id: claim.id,
+        place: claim.place,
+        sentence: claim.sentence,
+        paper: claim.paper,
+        verdict: judged.verdict.words(),
+        in_words: judged.words(claim),
+        about: claim.basis.words(),
+        depends_on: flips.iter().map(turning).collect(),
+        statements: outcome.statements().into_iter().map(stated).collect(),
+        note: claim.note,
+    }
 }
 
 /// A row a statement; a claim without any has one too.
@@ -229,7 +262,7 @@ mod tests {
         let unknown = outcome(Verdict::Undecided, &[]);
         assert!(unknown.depends().starts_with("what is not known"));
         assert_eq!(unknown.turned_by(), "");
-        assert_eq!(claim_json(&unknown)["depends_on"], json!([]));
+        assert!(judgement(&unknown).depends_on.is_empty());
         let known = outcome(Verdict::Holds, &[1, 2]);
         assert_eq!(known.turned_by(), "filter; record-100");
         let table = table(&[unknown, known]);

@@ -1,13 +1,14 @@
 //! A reproduction as files: the page, the tables of claims, and the book's chapter.
 
 use crate::curve_files::{CurveFiles, make_folder};
+use crate::outcome::Claims;
 use crate::recorded::{self, Recorded};
 use crate::reproduction::Reproduction;
+use crate::sensitivity::Sensitivity;
 use crate::{BASE, Error, beside, book, outcome, page};
 use brinell::scenario::Scenario;
 use brinell_io::atomic_write;
 use brinell_report::{DamageView, Page, Picture};
-use serde_json::json;
 use std::path::{Path, PathBuf};
 
 impl Reproduction {
@@ -26,17 +27,17 @@ impl Reproduction {
     /// # Errors
     /// Where a file cannot be written.
     pub fn write_claims(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
-        let mut header = json!({
-            "brinell": brinell::VERSION, "length": self.request.length.words(), "starts": self.request.length.starts(), "base_toml": BASE,
-            "interval": "95 % of the value, an average over whole revolutions of the inner ring and over the starts; peaks are those of a revolution",
-        });
-        if let Some(sensitivity) = &self.sensitivity {
-            header["sensitivity"] = sensitivity.json();
-        }
-        if self.beside.is_some() {
-            header["laws"] = json!(self.request.laws.word());
-        }
-        let mut written = outcome::write(&self.outcomes, &header, folder)?;
+        let claims = Claims {
+            brinell: brinell::VERSION,
+            length: self.request.length.words(),
+            starts: self.request.length.starts(),
+            base_toml: BASE,
+            interval: "95 % of the value, an average over whole revolutions of the inner ring and over the starts; peaks are those of a revolution",
+            sensitivity: self.sensitivity.as_ref().map(Sensitivity::json),
+            laws: self.beside.is_some().then(|| self.request.laws.word()),
+            claims: self.outcomes.iter().map(outcome::judgement).collect(),
+        };
+        let mut written = outcome::write(&self.outcomes, &claims, folder)?;
         if let Some(models) = &self.models {
             written.push(models.write(folder)?);
         }

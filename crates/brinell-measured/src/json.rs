@@ -4,9 +4,50 @@ use crate::beside::lead;
 use crate::diagnosis::{Diagnosis, Findings};
 use crate::measurement::Measurement;
 use crate::stretch::Rest;
-use brinell::analysis::{HEADLINES, to_json};
-use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK};
-use serde_json::{Value, json};
+use brinell::analysis::{Component, HEADLINES, to_json};
+use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK, objects};
+use serde_json::Value;
+
+objects! {
+    /// Of one bearing.
+    One<'a> {
+        #[serde(flatten)] analysis: Value,
+        brinell: &'static str, severity: Value, file: FileOf<'a>,
+        #[serde(skip_serializing_if = "Option::is_none")] whole: Option<Whole>,
+        #[serde(skip_serializing_if = "Option::is_none")] against: Option<Beside<'a>>,
+    }
+    /// Of several bearings.
+    Several<'a> {
+        brinell: &'static str, file: FileOf<'a>, verdict: Value, leads: Option<&'a str>, bearings: Vec<Value>,
+    }
+    /// Which signal it is.
+    FileOf<'a> {
+        path: String, channel: &'a str, start_s: f64,
+        #[serde(skip_serializing_if = "Vec::is_empty")] records: Vec<FileOf<'a>>,
+        #[serde(flatten)] said: Option<Said<'a>>,
+    }
+    /// What is said of it.
+    Said<'a> { notes: &'a [String], warnings: &'a [String], speed: &'a str, bearing: String }
+    /// A long signal, its levels and its end.
+    Whole { samples: u64, missing: u64, indicators: Vec<Named>, last: Last }
+    /// An indicator.
+    Named { name: &'static str, value: f64 }
+    /// An analysis of the end.
+    Last { start_s: f64, samples: usize, verdict: String, damage: Vec<Component> }
+    /// What it is compared with.
+    Beside<'a> { path: String, channel: &'a str, notes: Vec<String>, verdict: String }
+}
+
+impl<'a> FileOf<'a> {
+    pub(crate) fn new(m: &'a Measurement) -> Self {
+        let one = |m: &'a Measurement, records| {
+            let (path, channel) = (m.path.display().to_string(), m.channel.value.as_str());
+            FileOf { path, channel, start_s: m.start, records, said: None }
+        };
+        let records = m.records().filter(|_| !m.others.is_empty());
+        one(m, records.map(|m| one(m, Vec::new())).collect())
+    }
+}
 
 impl Findings {
     /// The bearing whose damage scores highest, by index.
@@ -42,60 +83,54 @@ impl Findings {
         let mut verdict = bearings[self.leads().unwrap_or(0)]["verdict"].clone();
         let texts = self.bearings.iter().map(|r| format!("{}: {}", r.name, r.verdict_text()));
         verdict["text"] = texts.collect::<Vec<_>>().join("\n").into();
-        json!({
-            "brinell": brinell::VERSION,
-            "file": of_file(&self.measurement),
-            "verdict": verdict,
-            "leads": self.leads().map(|k| &self.bearings[k].name),
-            "bearings": bearings,
-        })
+        let leads = self.leads().map(|k| self.bearings[k].name.as_str());
+        let several =
+            Several { brinell: brinell::VERSION, file: FileOf::new(&self.measurement), verdict, leads, bearings };
+        serde_json::to_value(several).unwrap_or_default()
     }
 }
 
 fn as_json(findings: &Findings, result: &Diagnosis) -> Value {
     let (m, unit) = (&findings.measurement, &findings.measurement.unit.value);
     let comparison = result.against.as_ref().map(|a| &a.comparison);
-    let mut value = to_json(&result.analysis, unit, findings.velocity.as_ref(), comparison);
-    value["brinell"] = brinell::VERSION.into();
-    value["verdict"]["text"] = result.verdict_text().into();
-    value["severity"] = result.levels.to_json(unit);
-    value["file"] = of_file(m);
-    value["file"]["notes"] = json!(findings.notes);
-    value["file"]["warnings"] = json!(findings.warnings);
-    value["file"]["speed"] = json!(findings.speed);
-    value["file"]["bearing"] = json!(result.said_of_bearing());
-    if let (Some(rest), Some(last)) = (&findings.rest, &result.last) {
-        value["whole"] = json!({
-            "samples": rest.samples,
-            "missing": rest.missing,
-            "indicators": whole_indicators(rest).map(|(_, name, v)| json!({ "name": name, "value": v })).collect::<Vec<_>>(),
-            "last": {
-                "start_s": rest.last_start,
-                "samples": last.samples,
-                "verdict": last.verdict(),
-                "damage": last.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
-            },
-        });
-    }
-    if let Some(other) = &result.against {
-        value["against"] = json!({
-            "path": other.measurement.path.display().to_string(),
-            "channel": other.measurement.channel.value,
-            "notes": other.measurement.notes(),
-            "verdict": other.analysis.verdict(),
-        });
-    }
-    value
+    let mut analysis = to_json(&result.analysis, unit, findings.velocity.as_ref(), comparison);
+    analysis["verdict"]["text"] = result.verdict_text().into();
+    let whole = findings.rest.as_ref().zip(result.last.as_ref()).map(|(rest, last)| Whole {
+        samples: rest.samples,
+        missing: rest.missing,
+        indicators: whole_indicators(rest).map(|(_, name, value)| Named { name, value }).collect(),
+        last: Last {
+            start_s: rest.last_start,
+            samples: last.samples,
+            verdict: last.verdict(),
+            damage: last.causes().map(|f| f.component).collect(),
+        },
+    });
+    let said = Said {
+        notes: &findings.notes,
+        warnings: &findings.warnings,
+        speed: &findings.speed,
+        bearing: result.said_of_bearing(),
+    };
+    let one = One {
+        analysis,
+        brinell: brinell::VERSION,
+        severity: result.levels.to_json(unit),
+        file: FileOf { said: Some(said), ..FileOf::new(m) },
+        whole,
+        against: result.against.as_ref().map(|other| Beside {
+            path: other.measurement.path.display().to_string(),
+            channel: &other.measurement.channel.value,
+            notes: other.measurement.notes(),
+            verdict: other.analysis.verdict(),
+        }),
+    };
+    serde_json::to_value(one).unwrap_or_default()
 }
 
 /// What was analysed; of several records each.
 pub fn of_file(m: &Measurement) -> Value {
-    let one = |m: &Measurement| json!({ "path": m.path.display().to_string(), "channel": m.channel.value, "start_s": m.start });
-    let mut file = one(m);
-    if !m.others.is_empty() {
-        file["records"] = m.records().map(one).collect();
-    }
-    file
+    serde_json::to_value(FileOf::new(m)).unwrap_or_default()
 }
 
 /// Headline indicators of a whole long signal; its peak is the largest of all samples.

@@ -2,6 +2,7 @@
 
 use crate::bearing::orders;
 use crate::examine::turning;
+use crate::json::{FileOf, Said};
 use crate::measurement::Measurement;
 use crate::problem::Problem;
 use crate::request::Request;
@@ -79,10 +80,13 @@ impl Short {
     /// As JSON, in the shape of an analysis.
     pub fn to_json(&self) -> Value {
         let m = &self.measurement;
+        let notes = m.notes();
+        let bearing = self.bearing.clone();
+        let said = Said { notes: &notes, warnings: &self.warnings, speed: &self.speed, bearing };
         let unit = &m.unit.value.name;
         let indicator = |e: Option<Estimate>, unit: &str| {
             let number = e.map_or(Written::new(None, None), Written::from);
-            json!(InUnit { number, unit })
+            InUnit::json(number, unit)
         };
         let peak = Estimate { value: self.peak, interval: None };
         json!({
@@ -99,15 +103,7 @@ impl Short {
                 Indicator::Kurtosis.name(): indicator(self.kurtosis, ""),
             },
             "severity": { "velocity_rms_10_1000_hz": { "value": self.velocity.map(|v| 1e3 * v.value), "unit": "mm/s" } },
-            "file": {
-                "path": m.path.display().to_string(),
-                "channel": m.channel.value,
-                "start_s": m.start,
-                "notes": m.notes(),
-                "warnings": self.warnings,
-                "speed": self.speed,
-                "bearing": self.bearing,
-            },
+            "file": FileOf { said: Some(said), ..FileOf::new(m) },
         })
     }
 }

@@ -3,6 +3,7 @@
 use super::scatter::{Scatter, scatter};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// A 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -66,6 +67,13 @@ pub struct InUnit<'a> {
     pub number: Written,
     /// Its unit.
     pub unit: &'a str,
+}
+
+impl InUnit<'_> {
+    /// As JSON.
+    pub fn json(number: impl Into<Written>, unit: &str) -> Value {
+        serde_json::to_value(InUnit { number: number.into(), unit }).unwrap_or_default()
+    }
 }
 
 impl From<Estimate> for Written {

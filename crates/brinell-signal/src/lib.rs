@@ -69,6 +69,7 @@ pub mod integrate;
 pub mod kurtogram;
 pub(crate) mod lengths;
 pub mod lines;
+mod objects;
 pub mod order;
 pub mod parallel;
 pub mod psd;

@@ -1,11 +1,12 @@
 //! What the page offers before anything runs.
 
+use crate::answers::{About, Example, Offered, Reply, Text};
 use crate::report::{Answer, Trouble};
 use crate::{pen, text};
 use brinell::analysis::NAMED;
 use brinell::bearing::catalogue;
 use brinell::document::json_schema;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// Examples of the repository: name, text.
 const EXAMPLES: [(&str, &str); 12] = [
@@ -35,36 +36,31 @@ pub fn example_file(name: &str) -> Option<&'static [u8]> {
 }
 
 /// The answer to `about`.
-pub(crate) fn about() -> Value {
-    let bearings: Vec<Value> = (catalogue::all().iter())
-        .map(|entry| {
-            let element = if entry.has_balls() { "ball" } else { "roller" };
-            json!({ "name": entry.name, "words": entry.title, "element": element })
-        })
-        .collect();
+pub(crate) fn about() -> Reply {
+    let bearing = |entry: &'static catalogue::Entry| {
+        let element = if entry.has_balls() { "ball" } else { "roller" };
+        Offered { name: &entry.name, words: &entry.title, element }
+    };
     // Also those of data sets that are of a catalogued size, as 6205-2RS: a measured file may be of them.
     let named = NAMED.iter().map(|b| b.name).filter(|name| catalogue::find_exactly(name).is_none());
-    let known: Vec<&str> = catalogue::all().iter().map(|entry| entry.name.as_str()).chain(named).collect();
-    let examples: Vec<Value> =
-        EXAMPLES.iter().map(|(name, text)| json!({ "name": name, "words": words(text) })).collect();
-    json!({
-        "version": brinell::VERSION,
-        "engine": if cfg!(target_family = "wasm") { "webassembly" } else { "native" },
-        "schema": json_schema(),
-        "bearings": bearings,
-        "known": known,
-        "examples": examples,
+    Reply::About(About {
+        version: brinell::VERSION,
+        engine: if cfg!(target_family = "wasm") { "webassembly" } else { "native" },
+        schema: json_schema(),
+        bearings: catalogue::all().iter().map(bearing).collect(),
+        known: catalogue::all().iter().map(|entry| entry.name.as_str()).chain(named).collect(),
+        examples: EXAMPLES.map(|(name, text)| Example { name, words: words(text) }).into(),
     })
 }
 
 /// The answer to `example`: its text, with what its files hold, as a file of the same name beside another scenario is
 /// another file.
-pub(crate) fn example(request: &Value) -> Answer<Value> {
+pub(crate) fn example(request: &Value) -> Answer<Reply> {
     let name = request["name"].as_str().unwrap_or_default();
     let (_, text) = (EXAMPLES.iter().find(|(n, _)| *n == name))
         .ok_or_else(|| Trouble::of(format!("no example is named {name:?}")))?;
     let (_, toml) = pen::resolved(text::read(text)?, (*text).to_owned(), example_file)?;
-    Ok(json!({ "toml": toml }))
+    Ok(Reply::Example(Text { toml }))
 }
 
 /// The first sentence of the comment on top of an example.

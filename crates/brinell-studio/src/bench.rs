@@ -1,5 +1,6 @@
 //! One bearing that runs: from t = 0 with a scenario, or on in an edited one.
 
+use crate::answers::Cause;
 use crate::course::Course;
 use crate::frames::Frames;
 use crate::report::{Answer, Trouble};
@@ -9,7 +10,6 @@ use brinell::observe::{Findings, Watch};
 use brinell::scenario::{Bearing, Scenario, Speed, Tables};
 use brinell::signal::Moments;
 use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation, SolverWork};
-use serde_json::json;
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -265,6 +265,7 @@ fn same_parts(a: &Scenario, b: &Scenario) -> bool {
 impl Trouble {
     /// A slot that holds no bearing. By its key the page knows that the engine is another than before.
     pub(crate) fn empty(slot: usize) -> Self {
-        Self(vec![json!({ "key": "slot", "line": null, "message": format!("slot {slot} holds no bearing; open one") })])
+        let message = format!("slot {slot} holds no bearing; open one");
+        Self(vec![Cause { key: Some("slot".into()), line: None, message }])
     }
 }

@@ -1,13 +1,14 @@
 //! How bearing B differs from bearing A: found damage and ratios of indicators, in words.
 
+use crate::answers::{self, Differing, Reply};
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{HEADLINES, indicator_words};
 use brinell::signal::ratio::{Ratio, ratio};
 use brinell::signal::{Estimate, Indicator, Interval};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// `differ`: of two answers of `verdict`.
-pub(crate) fn differ(request: &Value) -> Answer<Value> {
+pub(crate) fn differ(request: &Value) -> Answer<Reply> {
     let [a, b] = ["a", "b"].map(|key| &request[key]);
     for (key, side) in [("a", a), ("b", b)] {
         if !side["damage"].is_array() || !side["indicators"].is_array() {
@@ -17,16 +18,12 @@ pub(crate) fn differ(request: &Value) -> Answer<Value> {
     let compared = |i: Indicator| Some((indicator_words(i), ratio(&of(b, i.name())?, &of(a, i.name())?)?));
     let ratios: Vec<(String, Ratio)> = HEADLINES.into_iter().filter_map(compared).collect();
     let apart = |r: &Ratio| r.interval.is_some_and(|(low, high)| low > 1.0 || high < 1.0);
-    let all: Vec<Value> = (ratios.iter())
-        .map(|(words, r)| {
-            json!({
-                "name": words, "value": r.value, "apart": apart(r),
-                "low": r.interval.map(|i| i.0), "high": r.interval.map(|i| i.1),
-            })
-        })
-        .collect();
     let headline = format!("B against A: {}; {}.", damage(a, b), levels(&ratios, apart));
-    Ok(json!({ "headline": headline, "ratios": all }))
+    let one = |(name, r): (String, Ratio)| {
+        let (low, high) = r.interval.unzip();
+        answers::Ratio { name, value: r.value, apart: apart(&r), low, high }
+    };
+    Ok(Reply::Differ(Differing { headline, ratios: ratios.into_iter().map(one).collect() }))
 }
 
 /// An indicator of a verdict.
@@ -97,6 +94,7 @@ fn rounded(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     fn verdict(damage: &[&str], rms: [f64; 3]) -> Value {
         let damage: Vec<Value> = damage.iter().map(|name| json!({ "name": name })).collect();
@@ -107,8 +105,10 @@ mod tests {
     }
 
     fn said(a: &Value, b: &Value) -> String {
-        let answer = differ(&json!({ "a": a, "b": b })).unwrap();
-        answer["headline"].as_str().unwrap().to_owned()
+        let Ok(Reply::Differ(Differing { headline, .. })) = differ(&json!({ "a": a, "b": b })) else {
+            panic!("two verdicts differ in some way");
+        };
+        headline
     }
 
     /// Intervals of +-5 % each on a logarithmic scale make one of sqrt(2) times that; Student's t with 40 for 20

@@ -1,53 +1,49 @@
 //! A verdict as the page gets it, and a run's channels as a file.
 
+use crate::answers::{self, Cells, Estimated, Found, Reply, Saved, Verdict};
 use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{Analysis, COLUMNS, Family};
 use brinell::signal::{Estimate, Indicator, Moments};
 use brinell_io::{Format, Outcome, run_table};
-use serde_json::{Value, json};
+use serde_json::Value;
 
-/// Headline, words and table of an analysis, and what [`differ`](crate::differ) compares of it.
-pub(crate) fn verdict(analysis: &Analysis) -> Value {
+/// What the page gets of an analysis.
+pub(crate) fn verdict(analysis: &Analysis) -> Verdict {
     let words = analysis.verdict();
-    let found = |f: &Family| json!({ "name": f.name, "hz": f.frequency });
-    json!({
-        "headline": words.lines().next(),
-        "words": words,
-        "table": { "columns": COLUMNS.map(|c| c.trim_start_matches('#')), "rows": analysis.rows() },
-        "samples": analysis.samples,
-        "damage": analysis.causes().map(found).collect::<Vec<_>>(),
-        "indicators": analysis.indicators.iter().map(estimated).collect::<Vec<_>>(),
-    })
-}
-
-/// An indicator with its 95 % interval and that interval's degrees of freedom.
-fn estimated((indicator, estimate): &(Indicator, Estimate)) -> Value {
-    let interval = estimate.interval;
-    json!({
-        "name": indicator.name(),
-        "value": estimate.value,
-        "low": interval.map(|i| i.low),
-        "high": interval.map(|i| i.high),
-        "freedom": interval.map(|i| i.freedom),
-    })
+    let found = |f: &Family| Found { name: f.name, hz: f.frequency };
+    let estimated = |(indicator, Estimate { value, interval }): &(Indicator, Estimate)| Estimated {
+        name: indicator.name(),
+        value: *value,
+        low: interval.map(|i| i.low),
+        high: interval.map(|i| i.high),
+        freedom: interval.map(|i| i.freedom),
+    };
+    Verdict {
+        headline: words.lines().next().map(str::to_owned),
+        words,
+        table: Cells { columns: COLUMNS.map(|c| c.trim_start_matches('#')), rows: analysis.rows() },
+        samples: analysis.samples,
+        damage: analysis.causes().map(found).collect(),
+        indicators: analysis.indicators.iter().map(estimated).collect(),
+    }
 }
 
 /// RMS, peak, crest factor and kurtosis.
-pub(crate) fn moments_json(moments: &Moments) -> Value {
+pub(crate) fn moments(moments: &Moments) -> answers::Moments {
     let of = |i: Indicator| moments.get(i).filter(|v| v.is_finite());
-    json!({
-        "rms": of(Indicator::Rms),
-        "peak": of(Indicator::Peak),
-        "crest": of(Indicator::CrestFactor),
-        "kurtosis": of(Indicator::Kurtosis),
-        "samples": moments.count(),
-    })
+    answers::Moments {
+        rms: of(Indicator::Rms),
+        peak: of(Indicator::Peak),
+        crest: of(Indicator::CrestFactor),
+        kurtosis: of(Indicator::Kurtosis),
+        samples: moments.count(),
+    }
 }
 
 /// `save`: the recorded channels of a run from t = 0 that is over, as the command writes them.
-pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
+pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answer<Reply> {
     let (Some(signals), Some(_)) = (&bench.recording.signals, &bench.finished) else {
         return Err(Trouble::of("only a run from t = 0 that is over is saved"));
     };
@@ -76,5 +72,5 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
         .map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '-' })
         .collect();
     let ending = format.name();
-    Ok(json!({ "name": format!("{stem}.{ending}"), "type": kind, "bytes": arrays.bytes(&bytes) }))
+    Ok(Reply::Save(Saved { name: format!("{stem}.{ending}"), r#type: kind, bytes: arrays.bytes(&bytes) }))
 }

@@ -6,6 +6,7 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod about;
+mod answers;
 mod bench;
 mod course;
 mod damage;
@@ -22,5 +23,5 @@ mod tables;
 mod text;
 
 pub use about::example_file;
-pub use message::{Arrays, Message};
+pub use message::{Arrays, Message, Reference};
 pub use studio::{SharedStudio, Studio};

@@ -1,14 +1,15 @@
 //! A measured file: what it states of its signals, and one of them judged by that and by what was given.
 
+use crate::answers::{Judged, Line, Listed, Listened, MadeBy, Reply, Spectrum};
 use crate::judged;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use crate::text;
-use brinell::analysis::{Analysis, Quantity, Unit, shown_spectrum};
+use brinell::analysis::{Family, Quantity, Unit, shown_spectrum};
+use brinell::signal;
 use brinell_io::{Channel, FileKind, SignalFile, open_bytes};
 use brinell_measured::{Asked, Called, GivenSpeed, Measurement, Problem, Request, examine, made_by, stated};
-use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::collections::HashMap;
 
 /// Most samples of a waveform that the page gets: more are not seen.
@@ -32,22 +33,8 @@ impl From<Problem> for Trouble {
     }
 }
 
-/// What a file states of a channel, as the page gets it.
-#[derive(Serialize)]
-struct Listed {
-    name: String,
-    samples: Option<u64>,
-    rate_hz: Option<f64>,
-    rate_missing: Option<String>,
-    rate_from: Option<String>,
-    unit: Option<String>,
-    rpm: Option<f64>,
-    rpm_from: Option<String>,
-    is_wav: bool,
-}
-
 /// `listen`: the channels of a file.
-pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
+pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Reply> {
     let mut file = file(request, arrays)?;
     let run = made_by(&file);
     let mut shown: Vec<Channel> =
@@ -84,8 +71,8 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
             is_wav: file.kind() == FileKind::Wav,
         });
     }
-    let run = run.map(|run| json!({ "bearing": run.scenario.bearing.preset, "from_s": run.scenario.settled_s() }));
-    Ok(json!({ "channels": channels, "run": run }))
+    let run = run.map(|run| MadeBy { from_s: run.scenario.settled_s(), bearing: run.scenario.bearing.preset });
+    Ok(Reply::Listen(Listened { channels, run }))
 }
 
 /// What was given of a signal.
@@ -123,7 +110,7 @@ fn given(request: &Value) -> Answer<Request> {
 }
 
 /// `judge`: one channel, analysed as `brinell analyze` does.
-pub(crate) fn judge(request: &Value, sent: &Arrays, arrays: &mut Arrays) -> Answer<Value> {
+pub(crate) fn judge(request: &Value, sent: &Arrays, arrays: &mut Arrays) -> Answer<Reply> {
     let given = given(request)?;
     given.check()?;
     let found = examine(Measurement::of_file(file(request, sent)?, &given)?, &given)?;
@@ -137,25 +124,23 @@ pub(crate) fn judge(request: &Value, sent: &Arrays, arrays: &mut Arrays) -> Answ
         format!("{}, and {}", found.speed, analysis.shaft_words()),
     ];
     let channel = format!("channel {channel}: {:.3} s, {} samples", analysis.duration(), analysis.samples);
-    let used: Vec<&String> = before.iter().chain(&found.notes).chain([&channel]).collect();
-    let mut answer = judged::verdict(analysis);
-    answer["warnings"] = json!(found.warnings);
-    answer["used"] = json!(used);
-    answer["levels"] = analysis.headlines(&unit.name).into();
-    answer["from_s"] = json!(m.start);
-    answer["rate_hz"] = json!(rate);
-    answer["unit"] = json!(in_si(unit));
+    let used = before.into_iter().chain(found.notes.iter().cloned()).chain([channel]).collect();
     // Beside a simulation's, in its unit.
-    let mut si = |x: &[f64]| arrays.rounded(&unit.in_si(x));
-    answer["x"] = si(&x[..x.len().min(SHOWN)]);
-    answer["spectrum"] = json!({ "df": spectrum.frequency_step, "values": si(&spectrum.amplitude) });
-    answer["envelope"] = json!({
-        "df": envelope.frequency_step,
-        "values": si(&envelope.amplitude),
-        "band_hz": [analysis.view.band.low, analysis.view.band.high],
-    });
-    answer["lines"] = lines(analysis);
-    Ok(answer)
+    let shown = arrays.rounded(&unit.in_si(&x[..x.len().min(SHOWN)]));
+    let mut si = |of: &signal::Spectrum| Spectrum::new(of.frequency_step, &unit.in_si(&of.amplitude), arrays);
+    Ok(Reply::Judge(Box::new(Judged {
+        verdict: judged::verdict(analysis),
+        warnings: found.warnings.clone(),
+        used,
+        levels: analysis.headlines(&unit.name),
+        from_s: m.start,
+        rate_hz: rate,
+        unit: in_si(unit).to_owned(),
+        x: shown,
+        spectrum: si(&spectrum),
+        envelope: Spectrum { band_hz: Some([analysis.view.band.low, analysis.view.band.high]), ..si(envelope) },
+        lines: analysis.causes().map(line).collect(),
+    })))
 }
 
 /// The unit of what [`Unit::in_si`] gives.
@@ -171,20 +156,15 @@ fn in_si(unit: &Unit) -> &str {
     }
 }
 
-/// The families that were called damage, as the page marks lines.
-fn lines(analysis: &Analysis) -> Value {
-    let all: Vec<Value> = (analysis.causes())
-        .map(|f| {
-            json!({
-                "name": f.name,
-                "hz": f.frequency,
-                "nominal_hz": f.expected,
-                "found": true,
-                "harmonics": f.detected_harmonics(),
-                "over_noise_db": f.highest_db(),
-                "defect": null,
-            })
-        })
-        .collect();
-    json!(all)
+/// A family that was called damage, as the page marks it.
+fn line(f: &Family) -> Line {
+    Line {
+        name: f.name,
+        hz: Some(f.frequency),
+        nominal_hz: f.expected,
+        found: true,
+        harmonics: f.detected_harmonics(),
+        over_noise_db: Some(f.highest_db()),
+        defect: None,
+    }
 }

@@ -1,6 +1,7 @@
 //! A message's bytes: JSON, then arrays that it refers to.
 
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// What a message holds: an answer as it is put together, or a request as it was read.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -9,38 +10,41 @@ pub struct Arrays(Vec<u8>);
 /// Offsets of arrays, and the JSON's end, are multiples of this.
 const ALIGNMENT: usize = 8;
 
+/// What stands for an array in the JSON.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Reference<'a> {
+    /// Kind, offset and count.
+    #[serde(rename = "$", borrow)]
+    place: (&'a str, usize, usize),
+}
+
 impl Arrays {
-    fn put(&mut self, kind: &str, count: usize, bytes: impl Iterator<Item = u8>) -> Value {
+    fn put(&mut self, kind: &'static str, count: usize, bytes: impl Iterator<Item = u8>) -> Reference<'static> {
         let offset = self.0.len();
         self.0.extend(bytes);
         self.0.resize(self.0.len().next_multiple_of(ALIGNMENT), 0);
-        json!({ "$": [kind, offset, count] })
+        Reference { place: (kind, offset, count) }
     }
 
     /// Appends numbers in single precision; gives what stands for them in the JSON.
-    pub fn singles(&mut self, x: impl ExactSizeIterator<Item = f32>) -> Value {
+    pub fn singles(&mut self, x: impl ExactSizeIterator<Item = f32>) -> Reference<'static> {
         self.put("f32", x.len(), x.flat_map(f32::to_le_bytes))
     }
 
     /// The same of numbers in double precision, rounded to single.
-    pub fn rounded(&mut self, x: &[f64]) -> Value {
+    pub fn rounded(&mut self, x: &[f64]) -> Reference<'static> {
         self.singles(x.iter().map(|x| *x as f32))
     }
 
     /// Appends bytes.
-    pub fn bytes(&mut self, x: &[u8]) -> Value {
+    pub fn bytes(&mut self, x: &[u8]) -> Reference<'static> {
         self.put("u8", x.len(), x.iter().copied())
     }
 
     fn piece(&self, of: &Value, kind: &str, width: usize) -> Option<&[u8]> {
-        let list = of.get("$")?.as_array()?;
-        let number = |k: usize| usize::try_from(list.get(k)?.as_u64()?).ok();
-        let (offset, count) = (number(1)?, number(2)?);
-        if list.first()?.as_str()? != kind || list.len() != 3 {
-            return None;
-        }
+        let Reference { place: (of_kind, offset, count) } = Deserialize::deserialize(of).ok()?;
         let end = offset.checked_add(count.checked_mul(width)?)?;
-        self.0.get(offset..end)
+        self.0.get(offset..end).filter(|_| of_kind == kind)
     }
 
     /// Numbers in double precision that the JSON refers to.
@@ -95,6 +99,7 @@ impl Message {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     #[test]
     fn prop_arrays_come_back_and_bad_references_are_none() {
@@ -102,21 +107,23 @@ mod tests {
         let octets = arrays.bytes(&[1, 2, 3]);
         let singles = arrays.rounded(&[0.5, -2.0]);
         let json = json!({ "a": octets, "b": singles });
+        assert_eq!(json["b"]["$"], json!(["f32", 8, 2]));
         let message = Message { json, arrays };
         let back = Message::read(&message.bytes()).unwrap();
         assert_eq!(back, message);
         assert_eq!(back.arrays.octets(&back.json["a"]), Some(&[1, 2, 3][..]));
-        assert_eq!(back.json["b"]["$"], json!(["f32", 8, 2]));
-        for wrong in [
-            json!({ "$": ["u8", 0, 1_000_000] }),
-            json!({ "$": ["u8", u64::MAX, 2] }),
-            json!({ "$": ["f64", 0, u64::MAX] }),
-            json!({ "$": ["u8", -1, 2] }),
-            json!({ "$": ["u8", 0] }),
-            json!(7),
-        ] {
-            assert_eq!(back.arrays.octets(&wrong), None, "{wrong}");
-            assert_eq!(back.arrays.doubles(&wrong), None, "{wrong}");
+        let wrong = json!([
+            { "$": ["u8", 0, 1_000_000] },
+            { "$": ["u8", u64::MAX, 2] },
+            { "$": ["f64", 0, u64::MAX] },
+            { "$": ["u8", -1, 2] },
+            { "$": ["u8", 0] },
+            { "$": ["u8", 0, 1, 2] },
+            7,
+        ]);
+        for wrong in wrong.as_array().unwrap() {
+            assert_eq!(back.arrays.octets(wrong), None, "{wrong}");
+            assert_eq!(back.arrays.doubles(wrong), None, "{wrong}");
         }
         let whole = message.bytes();
         for length in 0..whole.len().min(20) {

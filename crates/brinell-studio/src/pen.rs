@@ -1,5 +1,6 @@
 //! Damage that is drawn, or read from a file, as shapes of a scenario.
 
+use crate::answers::{Drawn, Outline, Reply};
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use crate::text;
@@ -31,7 +32,7 @@ fn stated(shape: Shape) -> Answer<Value> {
 fn read(shape: &Value) -> Answer<Shape> {
     let mut whole = text::stated(WIDE);
     whole["defects"] = json!([{ "on": "outer-raceway", "center_deg": 0, "depth_um": 10, "shape": shape }]);
-    let text = text::of_request(&json!({ "scenario": whole }))?;
+    let text = text::of_stated(&whole)?;
     let mut loaded = text::read(&text)?;
     Ok(loaded.scenario.defects.remove(0).shape)
 }
@@ -48,17 +49,13 @@ fn number(request: &Value, key: &str) -> Answer<f64> {
 }
 
 /// What is drawn, between its least and its greatest s and z, mm, with its middle at a place of the stroke.
-fn drawn(shape: Shape, [low, high]: [[f64; 2]; 2], center_mm: [f64; 2]) -> Answer<Value> {
-    Ok(json!({
-        "shape": stated(shape)?,
-        "center_mm": center_mm,
-        "length_mm": high[0] - low[0],
-        "width_mm": high[1] - low[1],
-    }))
+fn drawn(shape: Shape, [low, high]: [[f64; 2]; 2], center_mm: [f64; 2]) -> Answer<Reply> {
+    let [length_mm, width_mm] = [0, 1].map(|k| high[k] - low[k]);
+    Ok(Reply::Drawn(Drawn { shape: stated(shape)?, center_mm, length_mm, width_mm }))
 }
 
 /// `scratch`: the area under a round pen.
-pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
+pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Reply> {
     let points = points(request, arrays)?;
     let stroke = Stroke { points_mm: &points, width_mm: number(request, "width_mm")? };
     let outline = scratch(&stroke).map_err(|e| Trouble::of(e.to_string()))?;
@@ -74,10 +71,10 @@ pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
 }
 
 /// `brush`: depth under a round brush, added to a grid.
-pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
+pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Reply> {
     let points = points(request, arrays)?;
     let stroke = Stroke { points_mm: &points, width_mm: number(request, "width_mm")? };
-    let sign = if request["raise"] == json!(true) { -1.0 } else { 1.0 };
+    let sign = if request["raise"] == true { -1.0 } else { 1.0 };
     let before = match request.get("grid").filter(|g| !g.is_null()) {
         Some(shape) => match read(shape)? {
             Shape::DepthMap { grid } => Some(grid),
@@ -101,7 +98,7 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
 }
 
 /// `outline`: a photo, a drawing or a depth map as a shape.
-pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
+pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Reply> {
     let bytes = request.get("bytes").and_then(|b| arrays.octets(b));
     let bytes = bytes.ok_or_else(|| Trouble::of("\"bytes\" must be an array of u8"))?;
     let name = request["name"].as_str().unwrap_or("file");
@@ -118,19 +115,19 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
         Some(Value::Object(stated)) => stated.clone(),
         Some(_) => return Err(Trouble::of("\"options\" must be an object")),
     };
-    options.insert("file".into(), json!(name));
-    let scenario = read(&json!({ key: options }))?;
+    options.insert("file".into(), name.into());
+    let scenario = read(&Map::from_iter([(key.to_owned(), options.into())]).into())?;
     let read = shape_of_bytes(&scenario, bytes).map_err(Trouble::of)?;
     let (shape, notes) = (read.shape, [read.warnings, read.notes].concat());
     let made = brinell::defect::Shape::new(&shape, 0.0);
     let extent = made.map(|made| Extent::of(&made, 1e-5));
     let mm = |f: fn(&Extent) -> f64, scale: f64| extent.as_ref().map(|e| scale * f(e));
-    Ok(json!({
-        "shape": stated(shape)?,
-        "notes": notes,
-        "length_mm": mm(|e| e.length, 1e3),
-        "width_mm": mm(|e| e.width, 1e3),
-        "area_mm2": mm(|e| e.area, 1e6),
+    Ok(Reply::Outline(Outline {
+        shape: stated(shape)?,
+        notes,
+        length_mm: mm(|e| e.length, 1e3),
+        width_mm: mm(|e| e.width, 1e3),
+        area_mm2: mm(|e| e.area, 1e6),
     }))
 }
 
@@ -168,7 +165,7 @@ pub(crate) fn resolved(
     match stated_keys {
         None => Ok((loaded, text)),
         Some(keys) => {
-            let text = text::of_request(&json!({ "scenario": keys }))?;
+            let text = text::of_stated(&keys)?;
             Ok((text::read(&text)?, text))
         }
     }

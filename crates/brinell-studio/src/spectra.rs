@@ -1,5 +1,6 @@
 //! Spectra, lines and the verdict of the signal since a bearing was opened; a loop to listen to.
 
+use crate::answers::{Line, Reply, Settling, Sound, Spectra, Spectrum};
 use crate::bench::Bench;
 use crate::judged;
 use crate::message::Arrays;
@@ -11,7 +12,6 @@ use brinell::observe::envelope_band;
 use brinell::signal::lines::harmonics;
 use brinell::signal::short;
 use brinell::signal::{LineSearch, StreamSpectra};
-use serde_json::{Value, json};
 
 /// Fewest samples of a spectrum.
 const FEWEST: usize = 512;
@@ -20,16 +20,11 @@ const HARMONICS: usize = 8;
 /// Chance of a false alarm below which a harmonic counts.
 const FALSE_ALARM: f64 = 1e-3;
 
-/// RMS, peak, crest factor and kurtosis since the bearing was opened.
-pub(crate) fn moments(bench: &Bench) -> Value {
-    judged::moments_json(&bench.recording.moments)
-}
-
 /// Of the latest 2^k samples, `longest` at most.
-pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Value {
+pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Reply {
     let most = longest.min(bench.recording.samples.len());
     if most < FEWEST {
-        return json!({ "samples": 0, "settling": true });
+        return Reply::Settling(Settling { samples: 0, settling: true });
     }
     let length = 1 << most.ilog2();
     let x = bench.recording.latest(length);
@@ -40,38 +35,29 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Val
     let searches: Vec<LineSearch> = named.iter().map(|n| LineSearch::new(n.hz)).collect();
     let found = StreamSpectra::of(&x, fs, length, band, &searches);
     let (Some(spectrum), Some(envelope)) = (found.spectrum, found.envelope) else {
-        return json!({ "samples": 0, "settling": true });
+        return Reply::Settling(Settling { samples: 0, settling: true });
     };
-    let lines: Vec<Value> = (named.iter().zip(&found.lines))
-        .map(|(name, line)| {
-            // A comb near that of a part without damage belongs to another part, or to nobody.
-            let line = line.as_ref().filter(|_| name.defect.is_some());
-            let hz = line.map(|l| l.frequency);
-            let present = hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
-            let present = present.unwrap_or_default().into_iter().filter(|l| l.false_alarm <= FALSE_ALARM);
-            let present: Vec<f64> = present.map(|l| l.snr_db).collect();
-            json!({
-                "name": name.name,
-                "hz": hz,
-                "nominal_hz": name.hz,
-                "found": hz.is_some(),
-                "harmonics": present.len(),
-                "over_noise_db": present.iter().copied().reduce(f64::max),
-                "defect": name.defect,
-            })
-        })
-        .collect();
-    json!({
-        "samples": length,
-        "settling": bench.recording.moments.count() == 0,
-        "spectrum": { "df": spectrum.frequency_step, "values": arrays.rounded(&spectrum.amplitude) },
-        "envelope": {
-            "df": envelope.spectrum.frequency_step,
-            "values": arrays.rounded(&envelope.spectrum.amplitude),
-            "band_hz": [band.low, band.high],
-            "mean": envelope.mean,
+    let lines = named.iter().zip(&found.lines).map(|(Named { name, hz: nominal_hz, defect }, line)| {
+        // A comb near that of a part without damage belongs to another part, or to nobody.
+        let hz = line.as_ref().filter(|_| defect.is_some()).map(|l| l.frequency);
+        let present = hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
+        let present = present.unwrap_or_default().into_iter().filter(|l| l.false_alarm <= FALSE_ALARM);
+        let present: Vec<f64> = present.map(|l| l.snr_db).collect();
+        let (found, over_noise_db) = (hz.is_some(), present.iter().copied().reduce(f64::max));
+        let (nominal_hz, harmonics, defect) = (*nominal_hz, present.len(), *defect);
+        Line { name, hz, nominal_hz, found, harmonics, over_noise_db, defect }
+    });
+    let lines = lines.collect();
+    Reply::Spectra(Spectra {
+        samples: length,
+        settling: bench.recording.moments.count() == 0,
+        spectrum: Spectrum::new(spectrum.frequency_step, &spectrum.amplitude, arrays),
+        envelope: Spectrum {
+            band_hz: Some([band.low, band.high]),
+            mean: Some(envelope.mean),
+            ..Spectrum::new(envelope.spectrum.frequency_step, &envelope.spectrum.amplitude, arrays)
         },
-        "lines": lines,
+        lines,
     })
 }
 
@@ -100,7 +86,7 @@ fn names(bench: &Bench) -> Vec<Named> {
 }
 
 /// `brinell analyze` on the signal so far.
-pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
+pub(crate) fn verdict(bench: &Bench) -> Answer<Reply> {
     let Some(shaft) = bench.shaft() else {
         return Err(Trouble::of("a verdict asks for a constant speed"));
     };
@@ -121,7 +107,7 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     if scenario.defects.is_empty() {
         analysis.beside_healthy_run(None);
     }
-    Ok(judged::verdict(&analysis))
+    Ok(Reply::Verdict(judged::verdict(&analysis)))
 }
 
 /// Shortest loop, s.
@@ -130,7 +116,7 @@ const LOOP_S: f64 = 0.4;
 const FADE: f64 = 0.05;
 
 /// The last whole turns of the shaft, closed to a loop.
-pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
+pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Reply> {
     let fs = bench.simulation().sample_rate();
     let turn = bench.shaft().filter(|f| *f > 0.0).map_or(fs, |f| fs / f);
     let held = bench.recording.samples.len() as f64 / (1.0 + FADE);
@@ -153,9 +139,5 @@ pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     }
     let highest = body.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let scale = if highest > 0.0 { 1.0 / highest } else { 0.0 };
-    Ok(json!({
-        "rate_hz": fs,
-        "turns": turns,
-        "x": arrays.singles(body.iter().map(|v| (v * scale) as f32)),
-    }))
+    Ok(Reply::Sound(Sound { rate_hz: fs, turns, x: arrays.singles(body.iter().map(|v| (v * scale) as f32)) }))
 }

@@ -1,15 +1,17 @@
 //! Requests and their answers.
 
+use crate::answers::{Advanced, Geometry, Indicators, Levels, Normal, Number, Opened, Orders, Refused, Reply};
 use crate::bench::Bench;
 use crate::message::{Arrays, Message};
 use crate::report::{Answer, Trouble};
 use crate::{about, damage, differ, judged, measured, pen, spectra, tables, text};
+use brinell::analysis::DefectOrders;
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
 use brinell::plausibility::{self, Beforehand};
-use brinell::result::{Spread, quantities};
+use brinell::result::{Quantity, Spread, quantities};
 use brinell::scenario::Scenario;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::sync::{Mutex, PoisonError};
 
 /// Bearings that run, A and B.
@@ -51,18 +53,17 @@ impl SharedStudio {
 }
 
 /// The bytes of an answer that may refer to arrays.
-fn answered(of: impl FnOnce(&mut Arrays) -> Answer<Value>) -> Vec<u8> {
+fn answered(of: impl FnOnce(&mut Arrays) -> Answer<Reply>) -> Vec<u8> {
     let mut arrays = Arrays::default();
-    let json = match of(&mut arrays) {
-        Ok(mut json) => {
-            json["ok"] = json!(true);
-            json
-        }
+    let (reply, ok) = match of(&mut arrays) {
+        Ok(reply) => (reply, true),
         Err(Trouble(problems)) => {
             arrays = Arrays::default();
-            json!({ "ok": false, "problems": problems })
+            (Reply::Refused(Refused { ok: false, problems }), false)
         }
     };
+    let mut json = serde_json::to_value(reply).unwrap_or_default();
+    json["ok"] = ok.into();
     Message { json, arrays }.bytes()
 }
 
@@ -81,7 +82,7 @@ impl Studio {
         answered(|arrays| self.answer(&request.map_err(Trouble::of)?, arrays))
     }
 
-    fn answer(&mut self, message: &Message, arrays: &mut Arrays) -> Answer<Value> {
+    fn answer(&mut self, message: &Message, arrays: &mut Arrays) -> Answer<Reply> {
         let (request, given) = (&message.json, &message.arrays);
         let name = request["do"].as_str().unwrap_or_default();
         match name {
@@ -128,11 +129,11 @@ impl Studio {
         self.slots[slot].as_mut().ok_or_else(|| Trouble::empty(slot))
     }
 
-    fn open(&mut self, request: &Value) -> Answer<Value> {
+    fn open(&mut self, request: &Value) -> Answer<Reply> {
         let slot = Self::slot(request)?;
         let (loaded, text) = pen::asked(request)?;
         let text = text::plain(&text)?;
-        let carried = match (&mut self.slots[slot], request["carry"] == json!(true)) {
+        let carried = match (&mut self.slots[slot], request["carry"] == true) {
             (Some(bench), true) => bench.carry(&loaded, &text)?,
             _ => false,
         };
@@ -140,116 +141,102 @@ impl Studio {
             self.slots[slot] = Some(Bench::start(loaded, text)?);
         }
         let bench = self.slots[slot].as_ref().ok_or_else(|| Trouble::empty(slot))?;
-        let mut answer = opened(bench);
-        answer["carried"] = json!(carried);
-        Ok(answer)
+        Ok(Reply::Open(Box::new(opened(bench, carried))))
     }
 
-    fn advance(&mut self, request: &Value, arrays: &mut Arrays) -> Answer<Value> {
+    fn advance(&mut self, request: &Value, arrays: &mut Arrays) -> Answer<Reply> {
         let rows = request["rows"].as_u64().unwrap_or(256).clamp(1, MOST_ROWS);
         // A page has no clock of the engine's: it bounds a slice in wall time by the steps that took so long before.
         let steps = request["steps"].as_u64().unwrap_or(u64::MAX).max(1);
         let bench = self.bench(request)?;
         let first = bench.recording.count;
         let x = bench.advance(rows, steps)?;
-        let mut answer = json!({
-            "t": bench.t(),
-            "first": first,
-            "done": bench.finished.is_some(),
-            "live": bench.live,
-            "x": arrays.rounded(&x),
-            "moments": spectra::moments(bench),
-        });
-        if request["frames"] == json!(true) {
-            answer["frames"] = bench.recording.frames.fresh(arrays);
-        }
-        Ok(answer)
+        Ok(Reply::Advance(Advanced {
+            t: bench.t(),
+            first,
+            done: bench.finished.is_some(),
+            live: bench.live,
+            x: arrays.rounded(&x),
+            moments: judged::moments(&bench.recording.moments),
+            frames: (request["frames"] == true).then(|| bench.recording.frames.fresh(arrays)),
+        }))
     }
 }
 
 /// `normal`: a scenario's text with all that is stated, and its stated keys.
-fn normal(request: &Value) -> Answer<Value> {
+fn normal(request: &Value) -> Answer<Reply> {
     let (loaded, text) = pen::asked(request)?;
-    let text = text::plain(&text)?;
-    Ok(json!({
-        "toml": text,
-        "scenario": text::stated(&text),
-        "all": text::stated(&loaded.scenario.to_toml()),
-    }))
+    let toml = text::plain(&text)?;
+    Ok(Reply::Normal(Normal { scenario: text::stated(&toml), toml, all: text::stated(&loaded.scenario.to_toml()) }))
 }
 
 /// What the page knows of an opened bearing.
-fn opened(bench: &Bench) -> Value {
+fn opened(bench: &Bench, carried: bool) -> Opened {
     let (loaded, simulation) = (&bench.loaded, bench.simulation());
     let (scenario, model) = (&loaded.scenario, simulation.model());
     let before = Beforehand::of(scenario, model);
-    let warnings: Vec<String> = (loaded.warnings.iter().chain(&before.warnings)).map(text::words).collect();
-    let assumed = loaded.provenance.iter().filter(|p| p.assumed).map(|p| &p.key);
-    let orders = orders_of(&scenario.bearing);
+    let assumed = loaded.provenance.iter().filter(|p| p.assumed).map(|p| p.key.clone());
+    let DefectOrders { ftf, bpfo, bpfi, bsf } = orders_of(&scenario.bearing);
     let load = model.load.full;
-    json!({
-        "live": bench.live,
-        "quick": bench.quick,
-        "toml": bench.text,
-        "scenario": text::stated(&bench.text),
-        "all": text::stated(&scenario.to_toml()),
-        "warnings": warnings,
-        "assumed": assumed.collect::<Vec<_>>(),
-        "rate_hz": simulation.sample_rate(),
-        "samples": simulation.samples(),
-        "settled_s": bench.recording.settled_s(),
-        "axis": (SENSOR[bench.recording.axis]),
-        "unit": "m/s^2",
-        "rpm": bench.shaft().map(|f| 60.0 * f),
-        "constant_speed": bench.shaft().is_some(),
-        "orders": { "BPFO": orders.bpfo, "BPFI": orders.bpfi, "BSF": orders.bsf, "FTF": orders.ftf },
-        "geometry": geometry(scenario),
-        "load_deg": load[1].atan2(load[0]).to_degrees(),
-        "load_zone_deg": before.statics.ok().map(|z| z.arc().map(f64::to_degrees)),
-    })
+    Opened {
+        live: bench.live,
+        quick: bench.quick,
+        toml: bench.text.clone(),
+        scenario: text::stated(&bench.text),
+        all: text::stated(&scenario.to_toml()),
+        warnings: loaded.warnings.iter().chain(&before.warnings).map(text::words).collect(),
+        assumed: assumed.collect(),
+        rate_hz: simulation.sample_rate(),
+        samples: simulation.samples(),
+        settled_s: bench.recording.settled_s(),
+        axis: SENSOR[bench.recording.axis],
+        unit: "m/s^2",
+        rpm: bench.shaft().map(|f| 60.0 * f),
+        constant_speed: bench.shaft().is_some(),
+        orders: Orders { bpfo, bpfi, bsf, ftf },
+        geometry: geometry(scenario),
+        load_deg: load[1].atan2(load[0]).to_degrees(),
+        load_zone_deg: before.statics.ok().map(|z| z.arc().map(f64::to_degrees)),
+        carried,
+    }
 }
 
-fn geometry(scenario: &Scenario) -> Value {
+fn geometry(scenario: &Scenario) -> Geometry {
     let b = &scenario.bearing;
-    json!({
-        "inner_mm": 0.5 * b.inner_raceway_diameter_mm,
-        "outer_mm": 0.5 * b.outer_raceway_diameter_mm,
-        "pitch_mm": 0.5 * b.pitch_diameter_mm,
-        "element_mm": 0.5 * b.roller_diameter_mm,
-        "length_mm": b.roller_length_mm,
-        "rows": b.rows,
-        "elements": b.rollers_per_row,
-        "element": if b.has_balls() { "ball" } else { "roller" },
-    })
+    Geometry {
+        inner_mm: 0.5 * b.inner_raceway_diameter_mm,
+        outer_mm: 0.5 * b.outer_raceway_diameter_mm,
+        pitch_mm: 0.5 * b.pitch_diameter_mm,
+        element_mm: 0.5 * b.roller_diameter_mm,
+        length_mm: b.roller_length_mm,
+        rows: b.rows,
+        elements: b.rollers_per_row,
+        element: if b.has_balls() { "ball" } else { "roller" },
+    }
 }
 
 /// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples since the last edit.
-fn indicators(bench: &Bench) -> Value {
+fn indicators(bench: &Bench) -> Reply {
     let Some((outcome, findings)) = &bench.finished else {
-        let recording = spectra::moments(bench);
-        let one = |name: &str, key: &str, unit: &str| json!({ "name": name, "unit": unit, "value": recording[key], "low": null, "high": null });
-        return json!({ "settled": bench.recording.moments.count() > 0, "quantities": [
-            one("RMS", "rms", "m/s^2"), one("peak", "peak", "m/s^2"),
-            one("crest factor", "crest", "1"), one("kurtosis", "kurtosis", "1"),
-        ]});
+        let of = judged::moments(&bench.recording.moments);
+        let one = |name: &str, unit: &str, value| {
+            let (name, unit) = (name.to_owned(), unit.to_owned());
+            Number { name, unit, value, low: None, high: None, has_interval: None }
+        };
+        let (rms, peak) = (one("RMS", "m/s^2", of.rms), one("peak", "m/s^2", of.peak));
+        let quantities = [rms, peak, one("crest factor", "1", of.crest), one("kurtosis", "1", of.kurtosis)];
+        return Reply::Levels(Levels { settled: of.samples > 0, quantities });
     };
-    let scenario = &bench.loaded.scenario;
-    let all: Vec<Value> = quantities(scenario, bench.simulation(), outcome, findings)
-        .into_iter()
-        .map(|q| {
-            let interval = q.interval();
-            json!({
-                "name": q.name, "unit": q.unit, "value": q.value,
-                "low": interval.map(|i| i.0), "high": interval.map(|i| i.1),
-                "has_interval": q.spread != Spread::Without,
-            })
-        })
-        .collect();
-    json!({
-        "settled": findings.drifts.is_empty(),
-        "quantities": all,
-        "warnings": plausibility::after(&bench.loaded.scenario, bench.simulation(), outcome, findings),
-        "steps": outcome.work.solver.steps,
-        "evaluations": outcome.work.solver.evaluations,
+    let (scenario, simulation) = (&bench.loaded.scenario, bench.simulation());
+    let one = |q: Quantity| {
+        let ((low, high), has_interval) = (q.interval().unzip(), Some(q.spread != Spread::Without));
+        Number { name: q.name, unit: q.unit, value: q.value, low, high, has_interval }
+    };
+    Reply::Indicators(Indicators {
+        settled: findings.drifts.is_empty(),
+        quantities: quantities(scenario, simulation, outcome, findings).into_iter().map(one).collect(),
+        warnings: plausibility::after(scenario, simulation, outcome, findings),
+        steps: outcome.work.solver.steps,
+        evaluations: outcome.work.solver.evaluations,
     })
 }

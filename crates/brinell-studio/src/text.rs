@@ -1,9 +1,10 @@
 //! Scenarios as text and as JSON, and what is wrong with them.
 
+use crate::answers::Cause;
 use crate::report::{Answer, Trouble};
 use brinell::Error;
 use brinell::document::{self, Loaded, Problem, Severity};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// The scenario of a request, as TOML.
 ///
@@ -12,22 +13,25 @@ use serde_json::{Value, json};
 pub(crate) fn of_request(request: &Value) -> Answer<String> {
     match (request.get("toml"), request.get("scenario")) {
         (Some(Value::String(text)), _) => Ok(text.clone()),
-        (_, Some(stated)) => toml::to_string(stated).map_err(|e| Trouble::of(format!("not a scenario: {e}"))),
+        (_, Some(stated)) => of_stated(stated),
         _ => Err(Trouble::of("a scenario is missing: \"toml\" or \"scenario\"")),
     }
 }
 
+/// Stated keys as TOML.
+pub(crate) fn of_stated(keys: &Value) -> Answer<String> {
+    toml::to_string(keys).map_err(|e| Trouble::of(format!("not a scenario: {e}")))
+}
+
 /// The keys that a text states, as JSON.
 pub(crate) fn stated(text: &str) -> Value {
-    toml::from_str::<toml::Table>(text)
-        .ok()
-        .and_then(|table| serde_json::to_value(table).ok())
-        .unwrap_or_else(|| json!({}))
+    let table = toml::from_str::<toml::Table>(text).unwrap_or_default();
+    serde_json::to_value(table).unwrap_or_default()
 }
 
 /// A text with nothing but its keys: however a scenario comes, the same keys give the same bytes.
 pub(crate) fn plain(text: &str) -> Answer<String> {
-    of_request(&json!({ "scenario": stated(text) }))
+    of_stated(&stated(text))
 }
 
 /// Reads a scenario.
@@ -38,8 +42,7 @@ pub(crate) fn read(text: &str) -> Answer<Loaded> {
 impl Trouble {
     /// One problem of no key.
     pub(crate) fn of(message: impl Into<String>) -> Self {
-        let message: String = message.into();
-        Self(vec![json!({ "key": null, "line": null, "message": message })])
+        Self(vec![Cause { key: None, line: None, message: message.into() }])
     }
 
     /// The errors of a scenario.
@@ -59,12 +62,8 @@ impl From<Error> for Trouble {
 }
 
 /// A problem as the page shows it: beside its key.
-fn problem(p: &Problem) -> Value {
-    json!({
-        "key": (!p.key.is_empty()).then(|| counted(&p.key)),
-        "line": p.line,
-        "message": words(p),
-    })
+fn problem(p: &Problem) -> Cause {
+    Cause { key: (!p.key.is_empty()).then(|| counted(&p.key)), line: p.line, message: words(p) }
 }
 
 /// A path with list items as a reader counts them: `defects.0.depth_um` is `defects[1].depth_um`.

@@ -5,9 +5,17 @@ use super::sides::Sides;
 use crate::say::{complain, plural, short};
 use brinell::RunResult;
 use brinell::many;
+use brinell::signal::objects;
 use brinell_study::campaign::{Level, SPREAD_MEANING, Side, assumed, ratios, run_ends};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+objects! {
+    /// What is assumed, and what it does.
+    Spread<'a> { meaning: &'static str, sides: Vec<OfSide<'a>> }
+    /// Ratios of a side to the baseline.
+    OfSide<'a> { of: &'a str, ratios: &'a [Level] }
+}
 
 /// Of each side but the baseline its ratios to the baseline with their bands, over the values that both assume. `None` where Ctrl-C ended it.
 pub(super) fn of(args: &CompareArgs, read: &Sides, runs: &[&RunResult], stop: &AtomicBool) -> Option<Vec<Vec<Level>>> {
@@ -47,6 +55,6 @@ pub(super) fn words(levels: &[Level], name: &str) -> Option<String> {
 
 /// The ratios of each side.
 pub(super) fn json(sides: &[Side], ratios: &[Vec<Level>]) -> Value {
-    let side = |(side, levels): (&Side, &Vec<Level>)| json!({ "of": side.label, "ratios": levels });
-    json!({ "meaning": SPREAD_MEANING, "sides": sides[1..].iter().zip(ratios).map(side).collect::<Vec<_>>() })
+    let sides = sides[1..].iter().zip(ratios).map(|(side, ratios)| OfSide { of: &side.label, ratios });
+    serde_json::to_value(Spread { meaning: SPREAD_MEANING, sides: sides.collect() }).unwrap_or_default()
 }

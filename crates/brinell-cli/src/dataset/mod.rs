@@ -13,8 +13,8 @@ use crate::say::{self, complain, plural, say};
 use crate::stop::stop_flag;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
-use brinell_study::dataset::{Campaign, DatasetError, ShardSummary, merge, run, verify};
-use serde_json::{Value, json};
+use brinell::signal::objects;
+use brinell_study::dataset::{Campaign, DatasetError, Merged, ShardSummary, merge, run, verify};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
@@ -112,17 +112,36 @@ fn tell_failures(failures: &[(usize, String)]) {
     }
 }
 
+objects! {
+    /// What `generate` did.
+    Ran {
+        folder: String, complete: bool, shard: Runs, interrupted: bool, failures: Vec<Failed>, warnings: Vec<String>,
+    }
+    /// Runs of the shard.
+    Runs { runs: usize, done: usize, before: usize, to_go: usize }
+    /// Why a run has no result.
+    Failed { run: usize, reason: String }
+    /// What `merge` did.
+    Joined<'a> { folder: String, files: &'a Merged }
+    /// What `check` found.
+    Verified<'a> { folder: String, files: Files, runs: Rows, absent: &'a [String], problems: &'a [String] }
+    /// Files that are there and whole, of all.
+    Files { sound: usize, of: usize }
+    /// Runs of those.
+    Rows { complete: u64, failed: u64 }
+}
+
 /// What [`tell`] and [`tell_failures`] say, as JSON.
-fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)], heed: &[String]) -> Value {
-    let failures: Vec<Value> = failures.iter().map(|(run, reason)| json!({ "run": run, "reason": reason })).collect();
-    json!({
-        "folder": folder.display().to_string(),
-        "complete": shard.whole,
-        "shard": { "runs": shard.runs, "done": shard.done, "before": shard.before, "to_go": left },
-        "interrupted": shard.interrupted,
-        "failures": failures,
-        "warnings": heed,
-    })
+fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)], heed: &[String]) -> Ran {
+    let failures = failures.iter().map(|(run, reason)| Failed { run: *run, reason: reason.clone() });
+    Ran {
+        folder: folder.display().to_string(),
+        complete: shard.whole,
+        shard: Runs { runs: shard.runs, done: shard.done, before: shard.before, to_go: left },
+        interrupted: shard.interrupted,
+        failures: failures.collect(),
+        warnings: heed.to_vec(),
+    }
 }
 
 /// How many runs are there, and whether the data set is complete.
@@ -149,10 +168,7 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
     resumable(&args.output, &Inputs::default())?;
     let merged = merge(&args.folders, &args.output)?;
     if args.json {
-        say::json(&json!({
-            "folder": args.output.display().to_string(),
-            "files": { "brought": merged.brought, "before": merged.before, "missing": merged.missing },
-        }));
+        say::json(&Joined { folder: args.output.display().to_string(), files: &merged });
     } else if !args.quiet {
         say!("{}: {} brought, {} there before", args.output.display(), plural(merged.brought, "file"), merged.before);
     }
@@ -166,13 +182,13 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
 fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     let found = verify(&args.folder)?;
     if args.json {
-        say::json(&json!({
-            "folder": args.folder.display().to_string(),
-            "files": { "sound": found.files, "of": found.of },
-            "runs": { "complete": found.rows - found.failed, "failed": found.failed },
-            "absent": found.absent,
-            "problems": found.problems,
-        }));
+        say::json(&Verified {
+            folder: args.folder.display().to_string(),
+            files: Files { sound: found.files, of: found.of },
+            runs: Rows { complete: found.rows - found.failed, failed: found.failed },
+            absent: &found.absent,
+            problems: &found.problems,
+        });
     } else if !args.quiet {
         let absent = found.absent.iter().map(|words| format!("; {words}"));
         let absent: String = absent.collect();

@@ -4,11 +4,11 @@ use super::DatasetArgs;
 use crate::say::{complain, plural, say, short, twelve_digits};
 use crate::sweep::duration;
 use brinell::document::on_one_line;
+use brinell::signal::objects;
 use brinell_study::campaign::Misses;
 use brinell_study::dataset::Campaign;
 use brinell_study::design::{OutOfRange, Part, Survey};
 use brinell_study::runner::mean_pace;
-use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 
 /// Share of a 32-bit float that is left after compression, about: the low mantissa bytes are noise.
@@ -96,34 +96,45 @@ fn fate(out_of_range: OutOfRange) -> &'static str {
     }
 }
 
+objects! {
+    /// A data set before it runs.
+    Planned {
+        name: String, runs: usize, files: usize, design: &'static str, seed: u64, classes: Vec<Class>,
+        splits: Vec<Split>, varies: Vec<String>, signals: Vec<String>, held_out_runs: usize, survey: Looked,
+        bytes: f64, shard: Cost, warnings: Vec<String>,
+    }
+    /// Runs of a class.
+    Class { label: usize, name: String, runs: usize }
+    /// Runs of a split, by class.
+    Split { name: &'static str, runs_of_classes: Vec<usize> }
+    /// Runs looked at, those of them whose values make no scenario, and what becomes of these.
+    Looked { runs: usize, no_scenario: usize, then: &'static str }
+    /// What the shard costs.
+    Cost { runs: usize, simulated_s: f64, at_a_time: usize, wall_s: Option<f64> }
+}
+
 /// The same as JSON.
-pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize) -> Value {
+pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize) -> Planned {
     let (plan, draws) = (campaign.plan(), campaign.draws());
     let classes = plan.classes.iter().enumerate();
-    let classes: Vec<Value> =
-        classes.map(|(label, c)| json!({ "label": label, "name": c.name, "runs": draws.runs_of(label) })).collect();
     let splits = draws.splits().into_iter();
-    let splits = splits.map(|(part, runs)| json!({ "name": part.word(), "runs_of_classes": runs }));
-    let names = draws.parameters().iter().map(|p| p.key.as_str());
-    let held_out = (0..draws.runs()).filter(|run| draws.is_held_out(*run));
-    let warnings = campaign.warnings(survey);
-    let costs = Costs::of(campaign, survey, runs, threads);
-    json!({
-        "name": plan.name,
-        "runs": draws.runs(),
-        "files": campaign.parts(),
-        "design": plan.design.word(),
-        "seed": plan.seed,
-        "classes": classes,
-        "splits": splits.collect::<Vec<_>>(),
-        "varies": names.collect::<Vec<_>>(),
-        "signals": campaign.signals().iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
-        "held_out_runs": held_out.count(),
-        "survey": { "runs": survey.runs, "no_scenario": survey.unfit, "then": fate(plan.out_of_range) },
-        "bytes": costs.bytes.round(),
-        "shard": { "runs": runs, "simulated_s": twelve_digits(costs.simulated_s), "at_a_time": costs.at_a_time, "wall_s": costs.wall_s.map(f64::ceil) },
-        "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-    })
+    let Costs { bytes, simulated_s, at_a_time, wall_s } = Costs::of(campaign, survey, runs, threads);
+    Planned {
+        name: plan.name.clone(),
+        runs: draws.runs(),
+        files: campaign.parts(),
+        design: plan.design.word(),
+        seed: plan.seed,
+        classes: classes.map(|(label, c)| Class { label, name: c.name.clone(), runs: draws.runs_of(label) }).collect(),
+        splits: splits.map(|(part, runs_of_classes)| Split { name: part.word(), runs_of_classes }).collect(),
+        varies: draws.parameters().iter().map(|p| p.key.clone()).collect(),
+        signals: campaign.signals().iter().map(|s| s.name.clone()).collect(),
+        held_out_runs: (0..draws.runs()).filter(|run| draws.is_held_out(*run)).count(),
+        survey: Looked { runs: survey.runs, no_scenario: survey.unfit, then: fate(plan.out_of_range) },
+        bytes: bytes.round(),
+        shard: Cost { runs, simulated_s: twelve_digits(simulated_s), at_a_time, wall_s: wall_s.map(f64::ceil) },
+        warnings: campaign.warnings(survey).iter().map(ToString::to_string).collect(),
+    }
 }
 
 /// What a data set and a shard of it cost, about.

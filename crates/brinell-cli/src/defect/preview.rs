@@ -189,9 +189,9 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
     let (m, view) = (&damage.measures, &damage.view);
     let curves = |axis: &str, of: &DamageCurves| {
         let mut all = serde_json::Map::new();
-        all.insert(axis.into(), json!(of.along));
+        all.insert(axis.into(), of.along.as_slice().into());
         for (name, values) in columns(&of.panels) {
-            all.insert(name, json!(values));
+            all.insert(name, values.into());
         }
         all
     };

@@ -20,7 +20,7 @@ use brinell_li2023::{
 use brinell_report::Layout;
 use brinell_study::campaign::Row;
 use brinell_study::runner::{Beside, Ledger, Task, Work, to_run};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -40,7 +40,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     }
     resumable(&args.output, &Inputs::default())?;
     make_folder(&args.output)?;
-    let header = json!({ "campaign": "reproduce" });
+    let header = Value::from_iter([("campaign", "reproduce")]);
     let words = |_: &Value| {
         format!("{} holds the journal of something else\n  choose another folder with --output", args.output.display())
     };

@@ -15,7 +15,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use serde_json::json;
+use serde_json::Value;
 
 use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{by_column, check_columns};
@@ -97,7 +97,7 @@ impl ParquetWriter {
         (self.metadata.clone().with(keys::UNITS, units.to_string()))
             .with(keys::DESCRIPTIONS, by_column(&self.columns, |c| &c.description).to_string())
             .with(keys::OUTCOME, outcome.to_string())
-            .with(keys::PANDAS_ATTRS, json!({ "units": units }).to_string())
+            .with(keys::PANDAS_ATTRS, Value::from_iter([("units", units)]).to_string())
     }
 }
 

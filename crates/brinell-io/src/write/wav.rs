@@ -5,7 +5,7 @@
 //! of each channel, the metadata and the outcome. Floats of 32 bits keep seven digits. Past 4 GiB the file becomes an
 //! RF64 (EBU Tech 3306).
 
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, without_time};
@@ -72,7 +72,7 @@ impl WavWriter {
     fn comment(&self, outcome: &Outcome) -> String {
         let channels = self.kept.iter().map(|&i| &self.columns[i]);
         let mut object = Map::new();
-        object.insert(keys::CHANNELS.into(), channels.map(|c| json!([c.name, c.unit])).collect());
+        object.insert(keys::CHANNELS.into(), channels.map(|c| [c.name.as_str(), c.unit.as_str()]).collect());
         object.insert("brinell.scale".into(), "1.0 is one unit of the channel".into());
         object.insert(keys::OUTCOME.into(), outcome.to_string().into());
         for (key, value) in &self.metadata.pairs {

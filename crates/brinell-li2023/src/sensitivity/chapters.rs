@@ -1,44 +1,93 @@
 //! The sensitivity and the search as files and the page show them.
 
-use super::{BEST, Candidate, SEED, Sensitivity, Tried};
+use super::{BEST, Candidate, Nearest, SEED, Sensitivity, Tried};
 use crate::{Length, RANGES, READ_AS, RECORDS, RMS, SEARCHED, Values, Verdict, claims};
+use brinell::signal::objects;
 use brinell_report::short;
 use brinell_report::{Chapter, Piece, Table};
-use serde_json::{Value, json};
+use serde_json::Value;
+
+objects! {
+    /// `sensitivity` of claims.json.
+    Written { length: String, variants: Vec<Variant>, search: Search }
+    /// The claims under one assumption made otherwise.
+    Variant {
+        id: &'static str, about: &'static str, is: &'static str, eq_27: &'static str, behind_filter: bool,
+        record: String, rms_m_per_s2: Vec<Option<f64>>, settings: Value, verdicts: Value,
+    }
+    /// A search for one set of assumptions.
+    Search {
+        design: &'static str, seed: u64, draws: usize, cases: &'static [&'static str], by_record: Vec<Near>, best: Vec<Set>,
+    }
+    /// The set that is nearest to the paper's RMS values, by the stretch of the record.
+    Near {
+        record: String, sets: usize, draw: Option<usize>, rms_distance: Option<f64>,
+        rms_m_per_s2: Option<[f64; 3]>,
+    }
+    /// A set of assumptions that was run in all cases.
+    Set {
+        draw: usize, settings: Value, behind_filter: bool, record: String, eq_27: &'static str,
+        claims_held: usize, claims_checkable: usize, rms_distance: f64, rms_m_per_s2: [f64; 3],
+        frequency_off_hz: Option<f64>, verdicts: Value,
+    }
+}
+
+/// In files.
+fn variant(Tried { variant: v, judged, numbers }: &Tried) -> Variant {
+    let read = numbers.read(v.reading);
+    let rms = SEARCHED.iter().map(|case| read.get(case, "outer_ax.rms").map(|n| n.value));
+    Variant {
+        id: v.id,
+        about: v.about,
+        is: v.words,
+        eq_27: v.outline.words(),
+        behind_filter: v.reading.filtered,
+        record: v.reading.record.words(),
+        rms_m_per_s2: rms.collect(),
+        settings: v.settings.iter().copied().collect(),
+        verdicts: claims().zip(judged).map(|(claim, j)| (claim.id, j.plain.words())).collect(),
+    }
+}
+
+/// In files.
+fn set(c: &Candidate) -> Set {
+    Set {
+        draw: c.draw.number,
+        settings: c.draw.settings.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect(),
+        behind_filter: c.draw.reading.filtered,
+        record: c.draw.reading.record.words(),
+        eq_27: c.draw.outline.words(),
+        claims_held: c.held(),
+        claims_checkable: c.checkable(),
+        rms_distance: c.distance.rms,
+        rms_m_per_s2: c.distance.values,
+        frequency_off_hz: c.distance.frequency,
+        verdicts: c.judged.iter().map(|(claim, j)| (claim.id, j.verdict.words())).collect(),
+    }
+}
 
 impl Sensitivity {
     pub(crate) fn json(&self) -> Value {
-        let candidate = |c: &Candidate| {
-            let settings: serde_json::Map<String, Value> =
-                c.draw.settings.iter().map(|(k, v)| (k.clone(), v.as_str().into())).collect();
-            json!({
-                "draw": c.draw.number, "settings": settings, "behind_filter": c.draw.reading.filtered,
-                "record": c.draw.reading.record.words(), "eq_27": c.draw.outline.words(), "claims_held": c.held(),
-                "claims_checkable": c.checkable(), "rms_distance": c.distance.rms, "rms_m_per_s2": c.distance.values,
-                "frequency_off_hz": c.distance.frequency,
-                "verdicts": c.judged.iter().map(|(claim, j)| (claim.id.to_owned(), j.verdict.words().into())).collect::<serde_json::Map<_, Value>>(),
-            })
+        let near = |Nearest { record, sets, best }: &Nearest| Near {
+            record: record.words(),
+            sets: *sets,
+            draw: best.as_ref().map(|b| b.0),
+            rms_distance: best.as_ref().map(|b| b.1.rms),
+            rms_m_per_s2: best.as_ref().map(|b| b.1.values),
         };
-        let variant = |tried: &Tried| {
-            let (v, verdicts) = (tried.variant, claims().zip(&tried.judged));
-            let read = tried.numbers.read(v.reading);
-            let rms = SEARCHED.iter().map(|case| read.get(case, "outer_ax.rms").map(|n| n.value));
-            json!({
-                "id": v.id, "about": v.about, "is": v.words, "eq_27": v.outline.words(),
-                "behind_filter": v.reading.filtered, "record": v.reading.record.words(), "rms_m_per_s2": rms.collect::<Vec<_>>(),
-                "settings": v.settings.iter().map(|(k, x)| ((*k).to_owned(), (*x).into())).collect::<serde_json::Map<_, Value>>(),
-                "verdicts": verdicts.map(|(c, j)| (c.id.to_owned(), j.plain.words().into())).collect::<serde_json::Map<_, Value>>(),
-            })
+        let written = Written {
+            length: self.length.words(),
+            variants: self.variants.iter().map(variant).collect(),
+            search: Search {
+                design: "Latin hypercube, particle swarm, Levenberg-Marquardt, as in `brinell calibrate`",
+                seed: SEED,
+                draws: self.drawn,
+                cases: SEARCHED,
+                by_record: self.nearest.iter().map(near).collect(),
+                best: self.candidates.iter().map(set).collect(),
+            },
         };
-        let nearest = self.nearest.iter().map(|n| {
-            let best = n.best.as_ref();
-            json!({ "record": n.record.words(), "sets": n.sets, "draw": best.map(|b| b.0), "rms_distance": best.map(|b| b.1.rms), "rms_m_per_s2": best.map(|b| b.1.values) })
-        });
-        json!({
-            "length": self.length.words(), "variants": self.variants.iter().map(variant).collect::<Vec<_>>(),
-            "search": { "design": "Latin hypercube, particle swarm, Levenberg-Marquardt, as in `brinell calibrate`", "seed": SEED, "draws": self.drawn, "cases": SEARCHED, "by_record": nearest.collect::<Vec<_>>(),
-                "best": self.candidates.iter().map(candidate).collect::<Vec<_>>() },
-        })
+        serde_json::to_value(written).unwrap_or_default()
     }
 
     /// The page's chapters.

@@ -4,6 +4,7 @@ use super::family::{DEEP, FAINT, Family, SCORE, by_lines, cage, lag, lines, scor
 use super::frequencies::Component;
 use super::options::Options;
 use super::together::{HARMONICS, Highest, Together};
+use serde::Serialize;
 
 /// So many times the tolerance off, a comb may be the bearing's at another speed.
 const FARTHER: f64 = 3.0;
@@ -39,7 +40,7 @@ pub struct Elsewhere {
 }
 
 /// A frequency of the bearing near a comb, farther off than the tolerance.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Nearest {
     /// Whose.
     pub component: Component,
@@ -48,8 +49,10 @@ pub struct Nearest {
     /// By how much the comb lies above it, relative.
     pub shift: f64,
     /// The shaft speed at which it would be there, Hz.
+    #[serde(rename = "shaft_hz_if_its")]
     pub shaft: f64,
     /// The slip of the cage at which it would be, relative, where that is one.
+    #[serde(rename = "slip_if_its")]
     pub slip: Option<f64>,
 }
 

@@ -6,17 +6,20 @@
 //! rest, pure rolling: FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
 
 use super::AnalysisError;
+use serde::Serialize;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// What can be damaged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Component {
     /// Raceway of the outer ring, at rest.
     OuterRace,
     /// Raceway of the inner ring, turning.
     InnerRace,
     /// A roller or ball.
+    #[serde(rename = "rolling_element")]
     Element,
     /// The cage.
     Cage,

@@ -2,8 +2,9 @@
 //! as JSON.
 
 use super::{Analysis, BandLevel, MachineClass, NoVelocity, NoZone, Unit, Zone, band_level, severity, shares};
-use crate::{Estimate, InUnit, Written};
-use serde_json::{Value, json};
+use crate::{Band, Estimate, InUnit, Written, objects};
+use serde::Serialize;
+use serde_json::Value;
 
 /// Levels of one signal.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +17,30 @@ pub struct Levels {
     pub zone: Option<Result<Zone, NoZone>>,
     /// Of the band shown.
     pub band: Option<BandLevel>,
+}
+
+objects! {
+    /// [`Levels`] in the JSON.
+    Severity<'a> {
+        velocity_rms_10_1000_hz: Velocity<'a>, iso_20816_3: Option<InClass>, band_shown: Option<BandShown<'a>>,
+    }
+    /// The zone of a machine of this class, or why it has none.
+    InClass {
+        machine_class: &'static str, boundaries_mm_per_s: [f64; 3], zone: Option<&'static str>, why: Option<String>,
+    }
+    /// [`BandLevel`] with units.
+    BandShown<'a> {
+        #[serde(flatten)] band: Band,
+        kurtosis: InUnit<'a>, envelope_rms: InUnit<'a>, envelope_peak: InUnit<'a>,
+    }
+}
+
+/// RMS velocity, or why there is none.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(crate) enum Velocity<'a> {
+    Known(InUnit<'a>),
+    Unknown { value: (), why: String },
 }
 
 impl Levels {
@@ -48,30 +73,29 @@ impl Levels {
 
     /// As `severity` of the JSON; `unit` is the signal's.
     pub fn to_json(&self, unit: &Unit) -> Value {
-        let of =
-            |e: &Estimate, factor: f64, unit: &str| json!(InUnit { number: Written::from(*e).times(factor), unit });
-        let velocity = match &self.velocity {
-            Ok(v) => of(v, 1e3, "mm/s"),
-            Err(why) => json!({ "value": null, "why": why.to_string() }),
+        let of = |e: Estimate, unit| InUnit { number: e.into(), unit };
+        let why = match (&self.velocity, self.zone) {
+            (Err(why), _) => Some(why.to_string()),
+            (_, zone) => zone.and_then(Result::err).map(|why| why.to_string()),
         };
-        json!({
-            "velocity_rms_10_1000_hz": velocity,
-            "iso_20816_3": self.class.map(|class| json!({
-                "machine_class": class.name(),
-                "boundaries_mm_per_s": class.boundaries(),
-                "zone": self.letter(),
-                "why": match (&self.velocity, self.zone) {
-                    (Err(why), _) => Some(why.to_string()),
-                    (_, zone) => zone.and_then(Result::err).map(|why| why.to_string()),
-                },
-            })),
-            "band_shown": self.band.map(|b| json!({
-                "low_hz": b.band.low,
-                "high_hz": b.band.high,
-                "kurtosis": of(&b.kurtosis, 1.0, ""),
-                "envelope_rms": of(&b.envelope_rms, 1.0, &unit.name),
-                "envelope_peak": of(&b.envelope_peak, 1.0, &unit.name),
-            })),
-        })
+        let severity = Severity {
+            velocity_rms_10_1000_hz: match &self.velocity {
+                Ok(v) => Velocity::Known(InUnit { number: Written::from(*v).times(1e3), unit: "mm/s" }),
+                Err(why) => Velocity::Unknown { value: (), why: why.to_string() },
+            },
+            iso_20816_3: self.class.map(|class| InClass {
+                machine_class: class.name(),
+                boundaries_mm_per_s: class.boundaries(),
+                zone: self.letter(),
+                why,
+            }),
+            band_shown: self.band.map(|b| BandShown {
+                band: b.band,
+                kurtosis: of(b.kurtosis, ""),
+                envelope_rms: of(b.envelope_rms, &unit.name),
+                envelope_peak: of(b.envelope_peak, &unit.name),
+            }),
+        };
+        serde_json::to_value(severity).unwrap_or_default()
     }
 }

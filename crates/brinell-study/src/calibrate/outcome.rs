@@ -9,6 +9,7 @@ use crate::campaign::{Beforehand, in_json, of_results};
 use crate::runner::RunnerError;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
+use brinell::signal::objects;
 use brinell_io::{Cells, Column, Table};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -312,58 +313,25 @@ impl Outcome {
     }
 }
 
-/// A key in `calibrate.json`.
-#[derive(Serialize)]
-struct FittedKey {
-    key: String,
-    unit: &'static str,
-    value: f64,
-    low: Option<f64>,
-    high: Option<f64>,
-    range: [f64; 2],
-    log: bool,
-    determined: bool,
-    met_as_well_by: Option<Rival>,
-    standard_uncertainty_in_ranges: f64,
-    difference_over_ranges: f64,
-}
-
-/// A direction there.
-#[derive(Serialize)]
-struct Combination {
-    of_ranges: Map<String, Value>,
-    singular_value: f64,
-    noise: f64,
-    half_interval_95_in_ranges: f64,
-    determined: bool,
-}
-
-#[derive(Serialize)]
-struct Counts {
-    asked_for: usize,
-    failed: usize,
-    best: usize,
-    differences_around: usize,
-}
-
-/// `calibrate.json`; what is not finite is null there.
-#[derive(Serialize)]
-struct Calibrated<'a> {
-    brinell: &'a str,
-    warnings: &'a [String],
-    plan: Value,
-    budget: usize,
-    runs: Counts,
-    met: bool,
-    chi_square: f64,
-    degrees_of_freedom: i64,
-    p_value: Option<f64>,
-    uncertainties_multiplied_by: f64,
-    keys: Vec<FittedKey>,
-    targets: &'a [Met],
-    correlation: Vec<Vec<f64>>,
-    directions: Vec<Combination>,
-    verdict: &'a [String],
-    undetermined: &'a [String],
-    measured: Option<&'a [String]>,
+objects! {
+    /// `calibrate.json`; what is not finite is null there.
+    Calibrated<'a> {
+        brinell: &'a str, warnings: &'a [String], plan: Value, budget: usize, runs: Counts, met: bool, chi_square: f64,
+        degrees_of_freedom: i64, p_value: Option<f64>, uncertainties_multiplied_by: f64, keys: Vec<FittedKey>,
+        targets: &'a [Met], correlation: Vec<Vec<f64>>, directions: Vec<Combination>, verdict: &'a [String],
+        undetermined: &'a [String], measured: Option<&'a [String]>,
+    }
+    /// Runs.
+    Counts { asked_for: usize, failed: usize, best: usize, differences_around: usize }
+    /// A key.
+    FittedKey {
+        key: String, unit: &'static str, value: f64, low: Option<f64>, high: Option<f64>, range: [f64; 2], log: bool,
+        determined: bool, met_as_well_by: Option<Rival>, standard_uncertainty_in_ranges: f64,
+        difference_over_ranges: f64,
+    }
+    /// A direction.
+    Combination {
+        of_ranges: Map<String, Value>, singular_value: f64, noise: f64, half_interval_95_in_ranges: f64,
+        determined: bool,
+    }
 }

@@ -6,8 +6,8 @@ use super::{CalibrateError, Key, Pattern, Settings, Target};
 use crate::campaign::{fingerprint, in_json};
 use brinell::document::Loaded;
 use brinell::result::{can_be_negative, check_name, listed};
+use brinell::signal::objects;
 use brinell::simulate::Simulation;
-use serde::Serialize;
 use serde_json::Value;
 
 /// Runs for each key where no budget is given.
@@ -99,14 +99,7 @@ impl FitPlan {
 
     /// What distinguishes this calibration from others. A larger budget resumes the same one.
     pub fn header(&self) -> Value {
-        #[derive(Serialize)]
-        struct Head<'a> {
-            campaign: &'a str,
-            keys: &'a [Key],
-            targets: &'a [Target],
-            seed: u64,
-            scenario: String,
-        }
+        objects! { Head<'a> { campaign: &'a str, keys: &'a [Key], targets: &'a [Target], seed: u64, scenario: String } }
         let (keys, targets, scenario) = (&self.keys, &self.targets, fingerprint(&self.middle.scenario));
         in_json(&Head { campaign: "calibrate", keys, targets, seed: self.settings.seed, scenario })
     }

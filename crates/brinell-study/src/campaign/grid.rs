@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::error::{MOST_POINTS, PlanError};
 use super::row::{digest, in_json};
-use serde::Serialize;
+use brinell::signal::objects;
 use serde_json::Value;
 
 /// Whether a key is another one, or one inside it.
@@ -87,12 +87,7 @@ impl Grid {
     /// none of a bad one.
     #[doc(hidden)]
     pub fn header<'a>(&self, scenarios: impl Iterator<Item = Option<&'a str>>) -> Value {
-        #[derive(Serialize)]
-        struct Head<'a> {
-            campaign: &'a str,
-            plan: &'a [Axis],
-            scenarios: String,
-        }
+        objects! { Head<'a> { campaign: &'a str, plan: &'a [Axis], scenarios: String } }
         let scenarios: Vec<&str> = scenarios.map(|s| s.unwrap_or("bad")).collect();
         in_json(&Head { campaign: "sweep", plan: &self.axes, scenarios: digest(&scenarios.join(" ")) })
     }

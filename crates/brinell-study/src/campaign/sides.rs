@@ -4,9 +4,8 @@
 use super::Compared;
 use super::row::in_json;
 use brinell::document::{Loaded, Provenance};
-use brinell::signal::Written;
+use brinell::signal::{Written, objects};
 use brinell_io::{Cells, Column, Table};
-use serde::Serialize;
 use serde_json::{Map, Value};
 
 /// Runs that a page can show in distinct colours.
@@ -140,24 +139,14 @@ pub fn sides_scenarios(sides: &[Side]) -> Map<String, Value> {
     sides.iter().map(one).collect()
 }
 
-/// One number of all runs, by their labels.
-#[derive(Serialize)]
-struct Number<'a> {
-    unit: &'a str,
-    runs: Map<String, Value>,
-    ratios: Map<String, Value>,
-}
-
-#[derive(Serialize)]
-struct Comparison<'a> {
-    brinell: &'a str,
-    baseline: Option<&'a str>,
-    warnings: &'a [String],
-    interval: &'a str,
-    ratio: &'a str,
-    interval_of_a_ratio: &'a str,
-    quantities: Map<String, Value>,
-    scenarios: Map<String, Value>,
+objects! {
+    /// One number of all runs, by their labels.
+    Number<'a> { unit: &'a str, runs: Map<String, Value>, ratios: Map<String, Value> }
+    /// `compare.json`.
+    Comparison<'a> {
+        brinell: &'a str, baseline: Option<&'a str>, warnings: &'a [String], interval: &'a str, ratio: &'a str,
+        interval_of_a_ratio: &'a str, quantities: Map<String, Value>, scenarios: Map<String, Value>,
+    }
 }
 
 /// What `compare.json` holds; `warnings` are what its reader should know.

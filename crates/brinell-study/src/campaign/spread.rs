@@ -8,6 +8,7 @@ use brinell::document::Provenance;
 use brinell::many;
 use brinell::result::{Quantity, can_be_negative, simulate_with};
 use brinell::scenario::Scenario;
+use brinell::signal::objects;
 use brinell::simulate::Progress;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
@@ -182,26 +183,13 @@ pub fn ratios(keys: &[Assumed], [of, to]: [&[Quantity]; 2], [of_ends, to_ends]: 
     told(of).filter_map(ratio).collect()
 }
 
-/// A run at an end that failed.
-#[derive(Serialize)]
-struct Failed<'a> {
-    at: f64,
-    why: &'a str,
-}
-
-/// A value that was moved.
-#[derive(Serialize)]
-struct Moved<'a> {
-    #[serde(flatten)]
-    key: &'a Assumed,
-    failed: Vec<Failed<'a>>,
-}
-
-#[derive(Serialize)]
-struct Written<'a> {
-    meaning: &'a str,
-    assumed: Vec<Moved<'a>>,
-    levels: &'a [Level],
+objects! {
+    /// A spread with the runs that failed.
+    Written<'a> { meaning: &'a str, assumed: Vec<Moved<'a>>, levels: &'a [Level] }
+    /// A value that was moved.
+    Moved<'a> { #[serde(flatten)] key: &'a Assumed, failed: Vec<Failed<'a>> }
+    /// A run at an end that failed.
+    Failed<'a> { at: f64, why: &'a str }
 }
 
 impl Spread {

@@ -5,10 +5,11 @@ use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, make, written};
 use crate::dataset::sidecar;
 use brinell_io::{atomic_copy, atomic_write, sha256_of};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// What came of joining.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Merged {
     /// Files that were brought in.
     pub brought: usize,

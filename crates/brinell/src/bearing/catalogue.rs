@@ -11,6 +11,7 @@ use super::kinematics::Geometry;
 use crate::analysis::has_bore_in_mm;
 use crate::did_you_mean::did_you_mean;
 use crate::scenario::{Choice, Laws};
+use serde::Serialize;
 use serde_json::Value as Json;
 use std::sync::{LazyLock, OnceLock};
 
@@ -43,9 +44,10 @@ pub const MASS: &str = "mass_kg";
 pub const FACTS: [&str; 6] = [BORE, OUTSIDE, WIDTH, DYNAMIC_RATING, STATIC_RATING, MASS];
 
 /// One number of a bearing, and where it comes from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Value {
     /// Scenario path, such as `bearing.pitch_diameter_mm`; its unit is in its name.
+    #[serde(skip)]
     pub key: String,
     /// The value, in the key's unit: a measure, a count, or the word of a choice.
     pub value: Json,
@@ -54,6 +56,7 @@ pub struct Value {
     /// Whether no source prints it.
     pub estimated: bool,
     /// The one set of laws that it holds with; `None`: every one.
+    #[serde(skip)]
     pub laws: Option<Laws>,
 }
 

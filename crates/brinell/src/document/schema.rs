@@ -30,15 +30,11 @@ impl Object {
             "additionalProperties": false,
         });
         if !self.required.is_empty() {
-            schema["required"] = json!(self.required);
+            schema["required"] = self.required.into();
         }
         if !self.catalogued.is_empty() {
-            let mut ways = Vec::new();
-            if let Some(preset) = self.preset {
-                ways.push(json!({ "required": [preset] }));
-            }
-            ways.push(json!({ "required": self.catalogued }));
-            schema["anyOf"] = json!(ways);
+            let ways = self.preset.map(|preset| vec![preset]).into_iter().chain([self.catalogued]);
+            schema["anyOf"] = ways.map(|keys| json!({ "required": keys })).collect();
         }
         schema
     }
@@ -55,9 +51,9 @@ impl Schema {
     }
 
     fn put(&mut self, spec: &Spec, mut schema: Json, doc: String) {
-        schema["description"] = json!(doc);
+        schema["description"] = doc.into();
         if !spec.unit.is_empty() {
-            schema["x-unit"] = json!(spec.unit);
+            schema["x-unit"] = spec.unit.into();
         }
         self.object().properties.insert(spec.name.into(), schema);
     }
@@ -181,8 +177,8 @@ impl Keys for Schema {
             }
         });
         let mut schema = shapes.schema(spec.doc);
-        schema["minProperties"] = json!(1);
-        schema["maxProperties"] = json!(1);
+        schema["minProperties"] = 1.into();
+        schema["maxProperties"] = 1.into();
         self.object().required.push(spec.name);
         self.object().properties.insert(spec.name.into(), schema);
     }

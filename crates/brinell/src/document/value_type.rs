@@ -102,7 +102,7 @@ pub(super) fn object(specs: &[&Spec], schemas: &[Json]) -> Json {
     let mut properties = serde_json::Map::new();
     for (spec, schema) in specs.iter().zip(schemas) {
         let mut schema = schema.clone();
-        schema["description"] = json!(format!("{} ({})", spec.doc, spec.unit));
+        schema["description"] = format!("{} ({})", spec.doc, spec.unit).into();
         properties.insert(spec.name.into(), schema);
     }
     let required: Vec<&str> = specs.iter().map(|spec| spec.name).collect();
@@ -128,7 +128,7 @@ fn number_schema(kind: &str, spec: &Spec) -> Json {
 }
 
 fn json_number(x: f64) -> Json {
-    if x.fract() == 0.0 && x.abs() < 1e15 { json!(x as i64) } else { json!(x) }
+    if x.fract() == 0.0 && x.abs() < 1e15 { (x as i64).into() } else { x.into() }
 }
 
 fn not_a_quantity(words: String, spec: &Spec) -> Misfit {
@@ -174,8 +174,8 @@ impl ValueType for f64 {
         let mut schema = number_schema("number", spec);
         if quantity::is_convertible(spec.unit) {
             // Bounds are about numbers, the pattern about strings.
-            schema["type"] = json!(["number", "string"]);
-            schema["pattern"] = json!(quantity::PATTERN);
+            schema["type"] = ["number", "string"].into();
+            schema["pattern"] = quantity::PATTERN.into();
         }
         schema
     }
@@ -326,7 +326,7 @@ impl<T: Listed> ValueType for Vec<T> {
     fn schema(spec: &Spec) -> Json {
         let mut schema = json!({ "type": "array", "items": T::schema(spec) });
         if let Some(least) = T::LISTS {
-            schema["minItems"] = json!(least);
+            schema["minItems"] = least.into();
         }
         schema
     }

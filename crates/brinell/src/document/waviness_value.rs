@@ -79,19 +79,18 @@ impl ValueType for Waviness {
     fn schema(_: &Spec) -> Json {
         let described = |spec: &Spec, unit: &str| {
             let mut schema = f64::schema(spec);
-            schema["description"] = json!(format!("{}{unit}", spec.doc));
+            schema["description"] = format!("{}{unit}", spec.doc).into();
             schema
         };
         let mut exponent = described(&EXPONENT, "");
-        exponent["default"] = json!(USUAL_EXPONENT);
-        let wave = json!({ "type": "integer", "minimum": 1, "maximum": MOST_WAVES });
+        exponent["default"] = USUAL_EXPONENT.into();
         json!({
             "type": "object",
             "properties": {
                 AMPLITUDE.name: described(&AMPLITUDE, " (um)"),
                 EXPONENT.name: exponent,
                 WAVES: {
-                    "type": "array", "items": wave, "minItems": 2, "maxItems": 2, "default": USUAL_WAVES,
+                    "type": "array", "items": { "type": "integer", "minimum": 1, "maximum": MOST_WAVES }, "minItems": 2, "maxItems": 2, "default": USUAL_WAVES,
                     "description": "waves per turn, the fewest and the most",
                 },
             },
