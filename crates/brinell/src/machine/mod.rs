@@ -1,4 +1,4 @@
-//! Bearings in a machine (section 25): one shaft, housings, and bearings between them that are each a [`Model`] of their own.
+//! Bearings in a machine (section 25): one shaft, housings, and bearings between them that are each a [`Model`](crate::model::Model) of their own.
 //!
 //! Positions are those of every bearing, in the order of its own layout, then the coordinates of every structure, then those of the points
 //! that are looked at. A ring that sits on a structure has no motion of its own: its entries follow the structure, whose accelerations are
