@@ -3,11 +3,12 @@
 use brinell::accuracy::settings;
 use brinell::machine::{Machine, MachineMotion, Mount, Point, Structure};
 use brinell::model::{Model, Motion, Power, Support};
-use brinell::scenario::{Accuracy, LoadOn, Scenario, Speed};
+use brinell::scenario::{Accuracy, LoadOn, Scenario, Speed, Start};
 use brinell::simulate::{End, Recording, Signals, Simulation};
 use brinell::solver::{Settings, Stepper, System};
 use brinell::start;
 use brinell_shaft::{Beam, Disc, Material, Part, Reduced, Spring, reduce};
+use std::f64::consts::PI;
 
 const STEEL: Material = Material { youngs_modulus: 211e9, shear_modulus: 81.2e9, density: 7810.0 };
 const LENGTH: f64 = 0.4;
@@ -27,7 +28,7 @@ fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
         discs.push(Disc { at, mass: model.inertia.inner_ring, diametral_inertia, polar_inertia });
     }
     let beam = Beam::new(&STEEL, &[part], (&discs, &[]), &AT, 0.02).unwrap();
-    let ports = AT.map(|z| beam.port(z).unwrap());
+    let ports = [AT[0], AT[1], 0.5 * LENGTH].map(|z| beam.port(z).unwrap());
     let reduced = reduce(&beam, 2000.0, &ports, 0.005, is_rigid).unwrap();
     (beam, reduced)
 }
@@ -239,5 +240,41 @@ fn xval_a_shaft_moves_as_in_another_rotor_program() {
             // Theirs takes the force as straight lines of 10 us.
             assert!((found - expected).abs() < 1e-8, "{t} s, {k}: {found:e} is not {expected:e}");
         }
+    }
+}
+
+/// Half the load and weight each; the slope of a beam that its middle presses on, F L^2/(16 E I), on either side.
+#[test]
+fn analytic_two_bearings_share_the_load_of_a_bent_shaft() {
+    for model in ["full", "tilting"] {
+        let mut s = of(if model == "full" { "6205" } else { "NU206" }, model);
+        s.simulation.start = Start::Equilibrium;
+        let (load, (beam, _)) = (9000.0, shaft(&s, false));
+        let machine = on_two([&s, &s], (false, true), [0.0, -load], 0.0);
+        let balance = machine.balance().unwrap();
+        let half = 0.5 * (load + 9.81 * beam.mass());
+        let slope = load * (AT[1] - AT[0]).powi(2) / (16.0 * STEEL.youngs_modulus * PI / 64.0 * 0.03_f64.powi(4));
+        for (k, carried) in balance.bearings.iter().enumerate() {
+            let own =
+                machine.bearings[k].model.layout.rollers() as f64 * machine.bearings[k].model.inertia.roller * 9.81;
+            assert!((carried.force[1] + half).abs() < own, "{carried:?}, {half}");
+            assert!(carried.force[0].abs() < 1e-3 * half);
+            let bent = if k == 0 { -carried.misalignment[1] } else { carried.misalignment[1] };
+            match model {
+                // Of the shaft's weight 2 kg and its ends are not where the load is.
+                "full" => assert!((bent / slope - 1.0).abs() < 0.01, "{bent:e} is not {slope:e}"),
+                // Rollers hold it.
+                _ => {
+                    assert!(bent > 0.3 * slope && bent < slope && carried.moment[1].abs() > 1.0, "{bent:e} {carried:?}")
+                }
+            }
+        }
+        // There it stays: what is left is what rolling and the cage do.
+        let (mut motion, y) = (MachineMotion::new(&machine), machine.initial().unwrap());
+        let mut a = vec![0.0; machine.dof()];
+        motion.accelerations(0.0, &y, &mut a);
+        let shaft = &a[machine.bearings.iter().map(|of| of.model.layout.dof()).sum::<usize>()..machine.point(0)];
+        let left = shaft.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+        assert!(left < 0.02 * load, "{left}");
     }
 }

@@ -4,6 +4,7 @@ use super::structure::{Row, Seat, Structure};
 use crate::lanes::WIDTH;
 use crate::model::{Layout, Model};
 use crate::operation::Rotation;
+use crate::scenario::Start;
 use crate::start;
 use crate::statics::NoBalance;
 
@@ -204,30 +205,43 @@ impl Machine {
         }
     }
 
-    /// The state at t = 0: of one bearing by its start; of a machine every structure `start::INITIAL_OFFSET` off in X and in Y, and every
-    /// bearing's elements rolling, or at rest.
+    /// The state at t = 0, by the start of the first bearing: in balance, or every structure and ring `start::INITIAL_OFFSET` off in X and in
+    /// Y and every bearing's elements rolling, or at rest.
     ///
     /// # Errors
-    /// Where the start of one bearing is `equilibrium` and there is none.
+    /// Where the start is `equilibrium` and there is none.
     pub fn initial(&self) -> Result<Vec<f64>, NoBalance> {
+        let first = &self.bearings[0].model;
         if self.is_one_bearing() {
-            return start::state(&self.bearings[0].model);
+            return start::state(first);
         }
         let dof = self.dof();
         let mut y = vec![0.0; 2 * dof];
+        let positions = match first.start {
+            Start::Equilibrium => self.balance()?.positions,
+            Start::Rolling | Start::Rest => self.initial_positions(),
+        };
+        y[..dof].copy_from_slice(&positions);
         for seated in &self.bearings {
-            let own = seated.model.layout.dof();
-            let of = start::off_balance(&seated.model);
-            y[seated.range()].copy_from_slice(&of[..own]);
-            y[dof..][seated.range()].copy_from_slice(&of[own..]);
+            let own = start::off_balance(&seated.model);
+            y[dof..][seated.range()].copy_from_slice(&own[seated.model.layout.dof()..]);
+        }
+        self.follow(&mut y[dof..]);
+        Ok(y)
+    }
+
+    /// Positions at t = 0 out of balance.
+    pub(super) fn initial_positions(&self) -> Vec<f64> {
+        let mut q = vec![0.0; self.dof()];
+        for seated in &self.bearings {
+            let own = start::off_balance(&seated.model);
+            q[seated.range()].copy_from_slice(&own[..seated.model.layout.dof()]);
         }
         for (structure, &first) in self.structures.iter().zip(&self.firsts) {
-            let coordinates = &mut y[first..][..structure.size()];
+            let coordinates = &mut q[first..][..structure.size()];
             structure.momentum.iter().for_each(|along| along.push(start::INITIAL_OFFSET, coordinates));
         }
-        let (q, v) = y.split_at_mut(dof);
-        self.follow(q);
-        self.follow(v);
-        Ok(y)
+        self.follow(&mut q);
+        q
     }
 }

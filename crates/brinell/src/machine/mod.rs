@@ -6,11 +6,13 @@
 //! its mass, says which force acts on it.
 
 mod assembly;
+mod balance;
 mod channels;
 mod energy;
 mod motion;
 mod structure;
 
 pub use assembly::{Machine, Mount, Point, Seated};
+pub use balance::{Balance, Carried};
 pub use motion::{MachineMotion, Part, Parts};
 pub use structure::{Row, Seat, Structure};

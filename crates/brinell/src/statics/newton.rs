@@ -4,14 +4,60 @@ use super::balance::NoBalance;
 
 const MAX_ITERATIONS: usize = 200;
 
-/// Potential energy with its derivatives.
-pub(super) struct State<const N: usize> {
-    pub(super) potential: f64,
-    pub(super) gradient: [f64; N],
-    pub(super) hessian: [[f64; N]; N],
+/// A square matrix by rows, of a size that the compiler knows or not.
+pub(crate) trait Square: Clone {
+    /// Row `i`.
+    fn row(&self, i: usize) -> &[f64];
+    /// Row `i`, to be changed.
+    fn row_mut(&mut self, i: usize) -> &mut [f64];
+    /// Exchanges two rows.
+    fn swap_rows(&mut self, i: usize, j: usize);
 }
 
-impl<const N: usize> State<N> {
+impl<const N: usize> Square for [[f64; N]; N] {
+    fn row(&self, i: usize) -> &[f64] {
+        &self[i]
+    }
+
+    fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self[i]
+    }
+
+    fn swap_rows(&mut self, i: usize, j: usize) {
+        self.swap(i, j);
+    }
+}
+
+impl Square for Vec<Vec<f64>> {
+    fn row(&self, i: usize) -> &[f64] {
+        &self[i]
+    }
+
+    fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self[i]
+    }
+
+    fn swap_rows(&mut self, i: usize, j: usize) {
+        self.swap(i, j);
+    }
+}
+
+/// Coordinates.
+pub(crate) trait Vector: Clone + AsRef<[f64]> + AsMut<[f64]> {}
+
+impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Vector for V {}
+
+/// Potential energy with its derivatives.
+pub(crate) struct State<V, M> {
+    pub(crate) potential: f64,
+    pub(crate) gradient: V,
+    pub(crate) hessian: M,
+}
+
+/// The same of as many coordinates as the compiler is told.
+pub(super) type Fixed<const N: usize> = State<[f64; N], [[f64; N]; N]>;
+
+impl<const N: usize> Fixed<N> {
     /// Of springs from 0 to the coordinates `x` and of forces on them.
     pub(super) fn of_springs(springs: &[f64; N], forces: &[f64; N], x: &[f64; N]) -> Self {
         let mut hessian = [[0.0; N]; N];
@@ -22,29 +68,37 @@ impl<const N: usize> State<N> {
             hessian,
         }
     }
+
+    /// The same, its size forgotten.
+    pub(super) fn of_any_size(self) -> State<Vec<f64>, Vec<Vec<f64>>> {
+        let hessian = self.hessian.iter().map(|row| row.to_vec()).collect();
+        State { potential: self.potential, gradient: self.gradient.to_vec(), hessian }
+    }
 }
 
 /// Where the gradient vanishes.
-pub(super) struct Minimum<const N: usize> {
-    pub(super) x: [f64; N],
-    pub(super) residual: f64,
-    pub(super) iterations: usize,
+pub(crate) struct Minimum<V> {
+    pub(crate) x: V,
+    pub(crate) residual: f64,
+    pub(crate) iterations: usize,
 }
 
 /// The minimum near `guess` over the coordinates that are `free`; the others stay at 0. `scale` is the largest force at
 /// play, `stalled` the residual with which a search that gets no farther has found it, `damping` what is added to the Hessian at first.
-pub(super) fn minimise<const N: usize>(
-    guess: [f64; N],
-    free: &[bool; N],
+pub(crate) fn minimise<V: Vector, M: Square>(
+    guess: V,
+    free: &[bool],
     (scale, stalled, mut damping): (f64, f64, f64),
-    mut evaluate: impl FnMut(&[f64; N]) -> State<N>,
-) -> Result<Minimum<N>, NoBalance> {
-    let mut held = |x: &[f64; N]| {
+    mut evaluate: impl FnMut(&V) -> State<V, M>,
+) -> Result<Minimum<V>, NoBalance> {
+    let n = free.len();
+    let mut held = |x: &V| {
         let mut state = evaluate(x);
-        for i in (0..N).filter(|&i| !free[i]) {
-            state.gradient[i] = 0.0;
-            for j in 0..N {
-                (state.hessian[i][j], state.hessian[j][i]) = (0.0, 0.0);
+        for i in (0..n).filter(|&i| !free[i]) {
+            state.gradient.as_mut()[i] = 0.0;
+            for j in 0..n {
+                state.hessian.row_mut(i)[j] = 0.0;
+                state.hessian.row_mut(j)[i] = 0.0;
             }
         }
         state
@@ -53,8 +107,9 @@ pub(super) fn minimise<const N: usize>(
         true => Ok(Minimum { x, residual, iterations }),
         false => Err(NoBalance { residual, scale, iterations }),
     };
-    let largest = |gradient: &[f64; N]| gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
-    let mut x: [f64; N] = std::array::from_fn(|k| if free[k] { guess[k] } else { 0.0 });
+    let largest = |gradient: &V| gradient.as_ref().iter().fold(0.0_f64, |m, g| m.max(g.abs()));
+    let mut x = guess;
+    (0..n).filter(|&k| !free[k]).for_each(|k| x.as_mut()[k] = 0.0);
     let mut state = held(&x);
     let mut residual = 0.0;
     for iterations in 0..MAX_ITERATIONS {
@@ -64,13 +119,15 @@ pub(super) fn minimise<const N: usize>(
         }
         let mut improved = false;
         for _ in 0..60 {
-            let mut damped = state.hessian;
-            (0..N).for_each(|k| damped[k][k] += if free[k] { damping } else { 1.0 });
-            let Some(step) = eliminate(damped, state.gradient.map(|g| -g)) else {
+            let (mut damped, mut down) = (state.hessian.clone(), state.gradient.clone());
+            (0..n).for_each(|k| damped.row_mut(k)[k] += if free[k] { damping } else { 1.0 });
+            down.as_mut().iter_mut().for_each(|g| *g = -*g);
+            let Some(step) = eliminate(damped, down) else {
                 damping *= 10.0;
                 continue;
             };
-            let trial: [f64; N] = std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
+            let mut trial = x.clone();
+            (0..n).filter(|&k| free[k]).for_each(|k| trial.as_mut()[k] += step.as_ref()[k]);
             let tried = held(&trial);
             let potential = state.potential;
             // Near the solution the potential no longer resolves the progress, but the residual does.
@@ -93,27 +150,31 @@ pub(super) fn minimise<const N: usize>(
 }
 
 /// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
-pub(super) fn eliminate<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64; N]> {
-    for column in 0..N {
-        let pivot = (column..N).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
-        if a[pivot][column] == 0.0 || !a[pivot][column].is_finite() {
+pub(crate) fn eliminate<V: Vector, M: Square>(mut a: M, mut x: V) -> Option<V> {
+    let b = x.as_mut();
+    let n = b.len();
+    for column in 0..n {
+        let size = |i: usize| a.row(i)[column].abs();
+        let pivot = (column..n).max_by(|&i, &j| size(i).total_cmp(&size(j)))?;
+        if size(pivot) == 0.0 || !size(pivot).is_finite() {
             return None;
         }
-        a.swap(column, pivot);
+        a.swap_rows(column, pivot);
         b.swap(column, pivot);
-        for row in column + 1..N {
-            let factor = a[row][column] / a[column][column];
-            for k in column..N {
-                a[row][k] -= factor * a[column][k];
+        for row in column + 1..n {
+            let factor = a.row(row)[column] / a.row(column)[column];
+            for k in column..n {
+                let above = a.row(column)[k];
+                a.row_mut(row)[k] -= factor * above;
             }
             b[row] -= factor * b[column];
         }
     }
-    for row in (0..N).rev() {
-        for k in row + 1..N {
-            b[row] -= a[row][k] * b[k];
+    for row in (0..n).rev() {
+        for k in row + 1..n {
+            b[row] -= a.row(row)[k] * b[k];
         }
-        b[row] /= a[row][row];
+        b[row] /= a.row(row)[row];
     }
-    Some(b)
+    Some(x)
 }

@@ -4,7 +4,8 @@
 use super::balance::{
     Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest, stalled,
 };
-use super::newton::{State, minimise};
+use super::newton::{Fixed, minimise};
+use super::pressed::Pressed;
 use crate::defect::{Angles, SIDES, Side};
 use crate::model::{Model, Resting, lumped};
 use crate::scenario::ModelKind;
@@ -67,34 +68,11 @@ fn solve_held(model: &Model, problem: &Problem, held: Option<&[Turned]>) -> Resu
     let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
     let guess: Offsets = std::array::from_fn(|k| problem.guess[k / 2][k % 2]);
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
-    let forces = external(model);
+    let [springs, forces] = held_by(model);
     let scale = force_scale(model, problem, &forces);
-    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
-    let reach = reach(model);
     let mut evaluate = |x: &Offsets| {
-        let mut state = State::of_springs(&[ki, ki, ko, ko], &forces, x);
-        if (x[0] - x[2]).hypot(x[1] - x[3]) > reach {
-            state.potential = f64::INFINITY;
-            return state;
-        }
-        for (slot, roller) in rollers.iter_mut().enumerate() {
-            *roller = match model.kind {
-                ModelKind::Full | ModelKind::Tilting => {
-                    between_raceways(model, problem, (slot, held.map(|of| of[slot])), x)
-                }
-                ModelKind::Lumped => in_series(model, problem, slot, x),
-            };
-            state.potential += roller.energy;
-            let [[in_x, in_y], [out_x, out_y]] = roller.along;
-            let along = [in_x, in_y, -out_x, -out_y];
-            for i in 0..4 {
-                state.gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
-                state.gradient[i] -= roller.push[i / 2][i % 2];
-                for j in 0..4 {
-                    state.hessian[i][j] += roller.tangent * along[i] * along[j];
-                }
-            }
-        }
+        let mut state = Fixed::of_springs(&springs, &forces, x);
+        press((model, problem, held), x, &mut rollers, &mut state);
         state
     };
     let found = minimise(guess, &free, (scale, stalled(model, problem, scale), softest(model)), &mut evaluate)?;
@@ -120,6 +98,51 @@ fn solve_held(model: &Model, problem: &Problem, held: Option<&[Turned]>) -> Resu
         residual: found.residual,
         iterations: found.iterations,
     })
+}
+
+/// Adds what the rollers hold and do at the rings' offsets `x`.
+fn press(
+    (model, problem, held): (&Model, &Problem, Option<&[Turned]>),
+    x: &Offsets,
+    rollers: &mut [Roller],
+    state: &mut Fixed<4>,
+) {
+    if (x[0] - x[2]).hypot(x[1] - x[3]) > reach(model) {
+        state.potential = f64::INFINITY;
+        return;
+    }
+    for (slot, roller) in rollers.iter_mut().enumerate() {
+        *roller = match model.kind {
+            ModelKind::Full | ModelKind::Tilting => {
+                between_raceways(model, problem, (slot, held.map(|of| of[slot])), x)
+            }
+            ModelKind::Lumped => in_series(model, problem, slot, x),
+        };
+        state.potential += roller.energy;
+        let [[in_x, in_y], [out_x, out_y]] = roller.along;
+        let along = [in_x, in_y, -out_x, -out_y];
+        for i in 0..4 {
+            state.gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
+            state.gradient[i] -= roller.push[i / 2][i % 2];
+            for j in 0..4 {
+                state.hessian[i][j] += roller.tangent * along[i] * along[j];
+            }
+        }
+    }
+}
+
+/// Springs to the ground and forces of each coordinate, as [`solve`] has them.
+pub(super) fn held_by(model: &Model) -> [Offsets; 2] {
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    [[ki, ki, ko, ko], external(model)]
+}
+
+/// The rollers alone between rings at `x`.
+pub(super) fn pressed(model: &Model, problem: &Problem, x: &Offsets) -> Pressed {
+    let mut rollers = vec![Roller::default(); model.layout.rollers()];
+    let mut state = Fixed::of_springs(&[0.0; 4], &[0.0; 4], x);
+    press((model, problem, None), x, &mut rollers, &mut state);
+    Pressed { state: state.of_any_size(), r: by_slot(model, &rollers, |r| r.r), beta: Vec::new() }
 }
 
 /// How far the rings may be from each other, m. Beyond a roller's radius and the gap exact geometry has rings that do not meet

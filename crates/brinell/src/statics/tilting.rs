@@ -4,7 +4,8 @@
 use super::balance::{
     Balance, NoBalance, Problem, Tilted, angles, by_slot, external, force_scale, own_force, softest, stalled,
 };
-use super::newton::{State, eliminate, minimise};
+use super::newton::{Fixed, eliminate, minimise};
+use super::pressed::Pressed;
 use crate::defect::Side;
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Slices};
@@ -31,37 +32,17 @@ struct Roller {
 }
 
 pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Balance, NoBalance> {
-    let slices = model.slices.as_ref().expect("a tilting model has slices");
     let arm = model.geometry.pitch_radius;
-    let planar = external(model);
-    let (load_in, load_out) = model.load.on_rings(1.0);
-    let moment = |f: f64| tilt.load_offset * f / arm;
-    let forces: Rings = [
-        planar[0],
-        planar[1],
-        moment(load_in[0]),
-        moment(load_in[1]),
-        planar[2],
-        planar[3],
-        moment(load_out[0]),
-        moment(load_out[1]),
-    ];
+    let [springs, forces] = held_by(model, tilt);
     let (inner, outer) = (!problem.fix_inner, !problem.fix_outer);
     let free = [inner, inner, inner, inner, outer, outer, outer, outer];
     let [gi, go] = problem.guess;
     let guess = [gi[0], gi[1], 0.0, 0.0, go[0], go[1], 0.0, 0.0];
-    let springs = supports(model, tilt);
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
     let scale = force_scale(model, problem, &forces);
     let mut evaluate = |x: &Rings| {
-        let mut state = State::of_springs(&springs, &forces, x);
-        for (slot, roller) in rollers.iter_mut().enumerate() {
-            let along = directions(tilt.levers[slot], problem.orbit[slot], arm);
-            let met = meet(&along, x);
-            *roller = between_raceways(model, slices, problem, (slot, scale), &met);
-            state.potential += roller.energy;
-            add(&mut state, roller, &along);
-        }
+        let mut state = Fixed::of_springs(&springs, &forces, x);
+        press((model, tilt, problem), scale, x, &mut rollers, &mut state);
         state
     };
     let found = minimise(guess, &free, (scale, stalled(model, problem, scale), softest(model)), &mut evaluate)?;
@@ -90,11 +71,52 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     })
 }
 
-fn supports(model: &Model, tilt: &Tilt) -> Rings {
+/// Adds what the rollers hold and do at the rings' coordinates `x`; `scale` is the largest force at play, N.
+fn press(
+    (model, tilt, problem): (&Model, &Tilt, &Problem),
+    scale: f64,
+    x: &Rings,
+    rollers: &mut [Roller],
+    state: &mut Fixed<8>,
+) {
+    let slices = model.slices.as_ref().expect("a tilting model has slices");
+    for (slot, roller) in rollers.iter_mut().enumerate() {
+        let along = directions(tilt.levers[slot], problem.orbit[slot], model.geometry.pitch_radius);
+        let met = meet(&along, x);
+        *roller = between_raceways(model, slices, problem, (slot, scale), &met);
+        state.potential += roller.energy;
+        add(state, roller, &along);
+    }
+}
+
+/// Springs to the ground and forces of each coordinate.
+pub(super) fn held_by(model: &Model, tilt: &Tilt) -> [Rings; 2] {
     let arm = model.geometry.pitch_radius;
+    let planar = external(model);
+    let (load_in, load_out) = model.load.on_rings(1.0);
+    let moment = |f: f64| tilt.load_offset * f / arm;
+    let forces: Rings = [
+        planar[0],
+        planar[1],
+        moment(load_in[0]),
+        moment(load_in[1]),
+        planar[2],
+        planar[3],
+        moment(load_out[0]),
+        moment(load_out[1]),
+    ];
     let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
     let [ti, to] = [&tilt.inner, &tilt.outer].map(|ring| ring.support.stiffness / (arm * arm));
-    [ki, ki, ti, ti, ko, ko, to, to]
+    [[ki, ki, ti, ti, ko, ko, to, to], forces]
+}
+
+/// The rollers alone between rings at `x`, under forces of the size `scale`, N.
+pub(super) fn pressed(model: &Model, tilt: &Tilt, problem: &Problem, scale: f64, x: &Rings) -> Pressed {
+    let mut rollers = vec![Roller::default(); model.layout.rollers()];
+    let mut state = Fixed::of_springs(&[0.0; 8], &[0.0; 8], x);
+    press((model, tilt, problem), scale, x, &mut rollers, &mut state);
+    let gather = |of: &dyn Fn(&Roller) -> f64| by_slot(model, &rollers, of);
+    Pressed { state: state.of_any_size(), r: gather(&|r| r.r), beta: gather(&|r| r.beta) }
 }
 
 /// How far a ring's coordinates (x, y, and tau times `arm`) bring its raceway along e_r at the roller's middle, and how
@@ -111,7 +133,7 @@ fn meet(along: &[[f64; 4]; 2], x: &Rings) -> [[f64; 2]; 2] {
 }
 
 /// Adds a roller's forces and tangent to the gradient and the Hessian of the potential.
-fn add(state: &mut State<8>, roller: &Roller, along: &[[f64; 4]; 2]) {
+fn add(state: &mut Fixed<8>, roller: &Roller, along: &[[f64; 4]; 2]) {
     let [inner, outer] = &roller.contacts;
     for i in 0..8 {
         let (ring, own) = (i / 4, i % 4);
@@ -174,7 +196,7 @@ fn between_raceways(
     let evaluate = |x: &[f64; 2]| {
         let [i, o] = contacts(x[0], x[1] / half);
         let sum = [0, 1, 2].map(|k| i.stiffness[k] + o.stiffness[k]);
-        State {
+        Fixed {
             potential: i.energy + o.energy - own * x[0],
             gradient: [o.force - i.force - own, (o.moment - i.moment) / half],
             hessian: [[sum[0], sum[1] / half], [sum[1] / half, sum[2] / (half * half)]],
