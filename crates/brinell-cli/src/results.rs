@@ -15,8 +15,11 @@ use brinell_report::Picture;
 use brinell_study::runner::JOURNAL;
 use serde_json::Value;
 use std::fs::File;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
+
+/// Bytes of the file that lists results; a preview's has all its outlines.
+const LARGEST_MANIFEST: u64 = 64 << 20;
 
 pub(crate) const SCENARIO: &str = "scenario.toml";
 pub(crate) const SUMMARY: &str = "summary.json";
@@ -53,7 +56,9 @@ impl Results {
     /// Those in a folder, as their manifest tells of them, and the names that it lists.
     fn of(folder: &Path) -> Option<(Self, Value, Vec<String>)> {
         Self::ALL.into_iter().find_map(|kind| {
-            let text = File::open(folder.join(kind.manifest)).and_then(read_text).ok()?;
+            let file = File::open(folder.join(kind.manifest)).ok()?;
+            let mut text = Vec::new();
+            file.take(LARGEST_MANIFEST).read_to_end(&mut text).ok()?;
             let json: Value = serde_json::from_slice(&text).ok()?;
             let files = json["files"].as_array()?.iter().filter_map(Value::as_str);
             let files: Vec<String> = files.map(str::to_owned).collect();
@@ -75,10 +80,8 @@ impl Results {
         same: impl FnOnce(&Value) -> bool,
     ) -> Result<Earlier, Failure> {
         let at = folder.display();
-        if resumes(folder) {
-            return Err(Failure::Usage(format!(
-                "{at} holds a study or a data set, with finished runs; choose another folder with -o"
-            )));
+        if let Some(kept) = Resumed::of(folder) {
+            return Err(kept.refuses(folder));
         }
         let previous = Self::of(folder);
         let listed = previous.as_ref().map_or(&[][..], |(.., files)| files);
@@ -107,26 +110,55 @@ pub(crate) fn is_data_set(folder: &Path) -> bool {
     ["dataset.json", "work/campaign.json"].iter().any(|name| folder.join(name).exists())
 }
 
-/// Whether finished runs lie there, hours of work.
-fn resumes(folder: &Path) -> bool {
-    folder.join(JOURNAL).exists() || is_data_set(folder)
+/// What keeps finished runs in a folder, hours of work, and resumes there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Resumed {
+    /// A sweep, a calibration or a reproduction. Another's journal is refused by who opens it.
+    Study,
+    /// A data set.
+    DataSet,
 }
 
-/// For a study or a data set: that it may write into a folder, for the first time or to resume. Another's journal is
-/// refused by who opens it.
-///
-/// # Errors
-/// Where another command's results, or anything else, lie there, or where a file there is an input.
-pub(crate) fn resumable(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
-    let resumes = resumes(folder);
-    match Results::of(folder) {
-        Some((other, ..)) if !resumes => Err(Failure::Usage(format!(
-            "{} holds results of `brinell {}`; choose another folder with -o",
-            folder.display(),
-            other.name
-        ))),
-        _ => spared(folder, inputs, |_| resumes).map(drop),
+impl Resumed {
+    fn of(folder: &Path) -> Option<Self> {
+        match is_data_set(folder) {
+            true => Some(Self::DataSet),
+            false => folder.join(JOURNAL).exists().then_some(Self::Study),
+        }
     }
+
+    fn refuses(self, folder: &Path) -> Failure {
+        let what = match self {
+            Self::Study => "finished runs of a sweep, a calibration or a reproduction",
+            Self::DataSet => "a data set",
+        };
+        Failure::Usage(format!("{} holds {what}; choose another folder with -o", folder.display()))
+    }
+
+    /// That it may write into a folder, for the first time or to resume.
+    ///
+    /// # Errors
+    /// Where another command's results, or anything else, lie there, or where a file there is an input.
+    pub(crate) fn may_write(self, folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
+        match (Self::of(folder), Results::of(folder)) {
+            (Some(other), _) if other != self => Err(other.refuses(folder)),
+            (None, Some((other, ..))) => Err(Failure::Usage(format!(
+                "{} holds results of `brinell {}`; choose another folder with -o",
+                folder.display(),
+                other.name
+            ))),
+            (kept, _) => spared(folder, inputs, |_| kept.is_some()).map(drop),
+        }
+    }
+}
+
+/// Folders below one of results that commands write into themselves: what else lies there counts too.
+const WITHIN: [&str; 3] = ["plots", "curves", "scenarios"];
+
+/// Whether a file is one that systems leave in any folder that is looked at: no result has such a name.
+fn is_aside(name: &str) -> bool {
+    let name = name.rsplit('/').next().unwrap_or(name);
+    name.starts_with('.') || ["Thumbs.db", "desktop.ini"].contains(&name)
 }
 
 /// Names of the files below a folder, but for folders within it that hold results of their own. What a command that was
@@ -135,7 +167,7 @@ pub(crate) fn resumable(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
 /// # Errors
 /// Where one of them is not among the folder's own, or is an input.
 fn spared(folder: &Path, inputs: &Inputs, own: impl Fn(&String) -> bool) -> Result<Vec<String>, Failure> {
-    let (mut names, mut folders) = (Vec::new(), vec![String::new()]);
+    let (mut names, mut folders, mut foreign) = (Vec::new(), vec![String::new()], Vec::new());
     while let Some(below) = folders.pop() {
         let at = folder.join(&below);
         let failed = |error| Failure::Read(at.clone(), error);
@@ -148,21 +180,33 @@ fn spared(folder: &Path, inputs: &Inputs, own: impl Fn(&String) -> bool) -> Resu
             let entry = entry.map_err(failed)?;
             let (path, name) = (entry.path(), format!("{below}{}", entry.file_name().to_string_lossy()));
             if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-                if Results::of(&path).is_none() && !resumes(&path) {
+                if WITHIN.contains(&&*name) || (Results::of(&path).is_none() && Resumed::of(&path).is_none()) {
                     folders.push(name + "/");
                 }
                 continue;
             }
+            if is_aside(&name) {
+                continue;
+            }
             if !own(&name) && !name.ends_with(".partial") {
-                return Err(Failure::Usage(format!(
-                    "{} holds {name}, which no list of results there names (an earlier version made none); it is neither written over nor removed: \
-                     move it, or choose another folder with -o",
-                    folder.display()
-                )));
+                foreign.push(name);
+                continue;
             }
             inputs.spare(&path)?;
             names.push(name);
         }
+    }
+    foreign.sort();
+    if let Some(first) = foreign.first() {
+        let more = match foreign.len() {
+            1 => String::new(),
+            count => format!(" and {} more", count - 1),
+        };
+        return Err(Failure::Usage(format!(
+            "{} holds files that are in no list of results there: {first}{more}; nothing was changed: move them away, or \
+             choose another folder with -o",
+            folder.display()
+        )));
     }
     names.retain(own);
     Ok(names)

@@ -7,7 +7,7 @@ use tempfile::tempdir;
 
 /// Of a file that is read and would be replaced, and of any other that no command made.
 const INPUT: &str = "would be written, and is an input of this command";
-const FOREIGN: &str = "which no list of results there names";
+const FOREIGN: &str = "that are in no list of results there";
 
 /// A second of a tone as `name`, and the call that analyses it.
 fn signal(here: &Path, name: &str) {
@@ -44,7 +44,7 @@ fn prop_a_run_never_writes_over_what_it_reads() {
     fs::copy(here.join("scenario.toml"), here.join("b/scenario.toml")).unwrap();
     fs::copy(here.join("scenario.toml"), here.join("b.toml")).unwrap();
     brinell(here, &["run", "b/scenario.toml", "b.toml", "-o", ".", "-q"]).exits(2).complains(&[
-        "b holds scenario.toml",
+        "b holds files that are in no list of results there: scenario.toml",
         FOREIGN,
         "nothing was run",
     ]);
@@ -216,10 +216,45 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     // Finished runs are never removed.
     brinell(here, &[&sweep[..], &["points"]].concat()).exits(0);
     let before = results(&here.join("points"));
-    run(here, &["s.toml", "-o", "points", "--overwrite"])
-        .exits(2)
-        .complains(&["a study or a data set, with finished runs"]);
+    run(here, &["s.toml", "-o", "points", "--overwrite"]).exits(2).complains(&["finished runs of a sweep"]);
     assert!(results(&here.join("points")) == before);
+    // Nor are a study's and a data set's mixed.
+    let plan = "base = \"s.toml\"\nruns = 2\nseed = 1\n[vary]\noperation.speed_rpm = { uniform = [1700, 1900] }\n";
+    fs::write(here.join("plan.toml"), plan).unwrap();
+    refused(here, &["dataset", "plan.toml", "-o", "points", "-q"], "points holds finished runs of a sweep");
+    fs::create_dir(here.join("set")).unwrap();
+    for name in ["dataset.json", "sweep.csv"] {
+        fs::write(here.join("set").join(name), "somebody's").unwrap();
+    }
+    refused(here, &[&sweep[..], &["set"]].concat(), "set holds a data set");
+    refused(here, &["reproduce", "--quick", "-o", "set"], "set holds a data set");
+}
+
+/// What is beside results: files that systems leave are nobody's, all others are named, also where a command writes pictures.
+#[test]
+fn prop_files_of_others_are_named_and_those_of_the_system_are_not() {
+    let folder = folder_with("s.toml", SHORT);
+    let here = folder.path();
+    run(here, &["s.toml", "-o", "o"]).exits(0);
+    for name in [".DS_Store", "Thumbs.db"] {
+        fs::write(here.join("o").join(name), "the system's").unwrap();
+    }
+    run(here, &["s.toml", "-o", "o"]).exits(0);
+    assert!(here.join("o/.DS_Store").exists() && here.join("o/Thumbs.db").exists());
+    // Results of another run where this one puts its pictures.
+    run(here, &["s.toml", "-o", "o/plots"]).exits(0);
+    refused(
+        here,
+        &["run", "s.toml", "-o", "o", "-q", "--plots", "svg", "--overwrite"],
+        "plots/scenario.toml and 2 more",
+    );
+    fs::remove_dir_all(here.join("o/plots")).unwrap();
+    fs::write(here.join("o/notes.txt"), "mine").unwrap();
+    refused(
+        here,
+        &["run", "s.toml", "-o", "o", "-q", "--overwrite"],
+        "o holds files that are in no list of results there: notes.txt; nothing",
+    );
 }
 
 #[test]

@@ -173,7 +173,6 @@ pub mod kernel;
 pub mod lamina;
 #[doc(hidden)]
 pub mod lanes;
-#[doc(hidden)]
 pub mod machine;
 #[doc(hidden)]
 pub mod model;

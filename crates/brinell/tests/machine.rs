@@ -1,71 +1,59 @@
 //! Bearings in a machine, section 25.
 
 use brinell::accuracy::settings;
-use brinell::machine::{Machine, MachineMotion, Mount, Point, Structure};
+use brinell::machine::{
+    Disc, Housing, Machine, MachineMotion, Material, OnShaft, Part, Plan, PlanError, Point, Shaft, Spring, Structure,
+};
 use brinell::model::{Model, Motion, Power, Support};
 use brinell::scenario::{Accuracy, LoadOn, Scenario, Speed, Start};
 use brinell::simulate::{End, Recording, Signals, Simulation};
 use brinell::solver::{Settings, Stepper, System};
 use brinell::start;
-use brinell_shaft::{Beam, Disc, Material, Part, Reduced, Spring, reduce};
-use std::f64::consts::PI;
+use brinell_shaft::{Beam, reduce};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const STEEL: Material = Material { youngs_modulus: 211e9, shear_modulus: 81.2e9, density: 7810.0 };
 const LENGTH: f64 = 0.4;
 /// Seats.
 const AT: [f64; 2] = [0.1, 0.3];
-/// Mass and moment of inertia, kg and kg m^2.
-const HOUSING: (f64, f64) = (6.0, 0.05);
 
-/// A shaft of 30 mm with a disc of 2 kg in the middle and the inner rings of `s` on it: rigid, or elastic.
-fn shaft(s: &Scenario, is_rigid: bool) -> (Beam, Reduced) {
-    let model = Model::new(s).unwrap();
+/// A shaft of 30 mm with a disc of 2 kg in the middle under `load`, out of balance, on two bearings, whose outer rings are on their own supports
+/// or both in a rigid housing.
+fn plan(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [f64; 2], unbalance: f64) -> Plan {
     let part = Part { length: LENGTH, outer_diameter: 0.03, inner_diameter: 0.0 };
-    let mut discs = vec![Disc { at: 0.5 * LENGTH, mass: 2.0, diametral_inertia: 3e-3, polar_inertia: 5e-3 }];
-    for at in AT {
-        let (diametral_inertia, polar_inertia) =
-            model.tilt.as_ref().map_or((0.0, 0.0), |t| (t.inner.inertia, t.inner.polar_inertia));
-        discs.push(Disc { at, mass: model.inertia.inner_ring, diametral_inertia, polar_inertia });
-    }
-    let beam = Beam::new(&STEEL, &[part], (&discs, &[]), &AT, 0.02).unwrap();
-    let ports = [AT[0], AT[1], 0.5 * LENGTH].map(|z| beam.port(z).unwrap());
-    let reduced = reduce(&beam, 2000.0, &ports, 0.005, is_rigid).unwrap();
-    (beam, reduced)
+    let middle = 0.5 * LENGTH;
+    let shaft = Shaft {
+        material: STEEL,
+        discs: vec![Disc { at: middle, mass: 2.0, diametral_inertia: 3e-3, polar_inertia: 5e-3 }],
+        loads: vec![(middle, load)],
+        unbalances: vec![(middle, unbalance, 0.3)],
+        looked_at: vec![("1".into(), middle)],
+        is_rigid,
+        ..Shaft::of_steel(vec![part])
+    };
+    let housing = Housing {
+        at: middle,
+        mass: 6.0,
+        inertia: 0.05,
+        support: Support { stiffness: 1e7, damping: 500.0 },
+        tilt_support: Support { stiffness: 1e5, damping: 5.0 },
+        sensors: [("sensor1", AT[0]), ("sensor2", AT[1])].map(|(name, z)| (name.into(), z, FRAC_PI_2)).into(),
+    };
+    let bearings = [0, 1].map(|k: usize| OnShaft {
+        model: Model::new(scenarios[k]).unwrap(),
+        at: AT[k],
+        housing: in_housing.then_some(0),
+    });
+    Plan { shaft, bearings: bearings.into(), housings: in_housing.then_some(housing).into_iter().collect() }
 }
 
-/// That shaft on two bearings, whose outer rings are on their own supports or both in a rigid housing, under `load` in the middle.
-fn on_two(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [f64; 2], unbalance: f64) -> Machine {
-    let (beam, reduced) = shaft(scenarios[0], is_rigid);
-    let mut structure = Structure::shaft(&beam, &reduced);
-    let seat = |z: f64| {
-        let (shift, tilt) = (beam.port(z).unwrap(), beam.tilt_port(z).unwrap());
-        Structure::seat_of_shaft(&reduced.port(&shift), &reduced.port(&tilt))
-    };
-    structure.add_load(&seat(0.5 * LENGTH), load);
-    structure.add_unbalance(&seat(0.5 * LENGTH), unbalance, 0.3);
-    let bearings = [0, 1].map(|k: usize| {
-        let mount = Mount { structure: 0, seat: seat(AT[k]) };
-        let housing = Mount { structure: 1, seat: Structure::seat_of_rigid(HOUSING, AT[k] - 0.5 * LENGTH) };
-        (Model::new(scenarios[k]).unwrap(), [Some(mount), in_housing.then_some(housing)])
-    });
-    let springs = [(1e7, 500.0), (1e5, 5.0)].map(|(stiffness, damping)| Support { stiffness, damping });
-    let housing = Structure::rigid(HOUSING, (springs[0], springs[1]));
-    let structures = [structure].into_iter().chain(in_housing.then_some(housing));
-    let sensor = |(k, name): (usize, &str)| Point {
-        name: name.into(),
-        is_sensor: true,
-        structure: 1,
-        row: Structure::seat_of_rigid(HOUSING, AT[k] - 0.5 * LENGTH).shift[1].clone(),
-    };
-    let points = ["housing1.sensor1", "housing1.sensor2"].into_iter().enumerate().map(sensor);
-    let points = points.filter(|_| in_housing).chain([Point {
-        name: "shaft.y1".into(),
-        is_sensor: false,
-        structure: 0,
-        row: seat(0.5 * LENGTH).shift[1].clone(),
-    }]);
-    let points = points.collect();
-    Machine::new(bearings.into(), structures.collect(), points)
+fn on_two(scenarios: [&Scenario; 2], how: (bool, bool), load: [f64; 2], unbalance: f64) -> Machine {
+    plan(scenarios, how, load, unbalance).machine().unwrap()
+}
+
+/// Mass of that shaft with its disc and inner rings, kg.
+fn mass(s: &Scenario) -> f64 {
+    STEEL.density * LENGTH * PI * 0.03_f64.powi(2) / 4.0 + 2.0 + 2.0 * s.bearing.inner_ring_mass_kg
 }
 
 /// A bearing whose load comes from the shaft.
@@ -100,11 +88,10 @@ fn run<S: System<Flow = Power>>(system: &mut S, settings: Settings, y: &[f64], t
 fn analytic_two_bearings_under_a_rigid_shaft_are_one_under_half_the_load() {
     let s = of("6205", "full");
     let machine = on_two([&s, &s], (true, false), [300.0, -800.0], 0.0);
-    let (beam, _) = shaft(&s, true);
     let mut half = s.clone();
     half.operation.load_n = [150.0, -400.0];
     half.operation.load_on = LoadOn::InnerRing;
-    half.bearing.inner_ring_mass_kg = 0.5 * beam.mass();
+    half.bearing.inner_ring_mass_kg = 0.5 * mass(&s);
     let model = Model::new(&half).unwrap();
     let t = 0.02;
     // Steps of one length, below the limit of both: a step of another length has another error.
@@ -164,7 +151,7 @@ fn prop_damage_at_one_end_is_heard_at_both_and_more_there() {
     let recording = Recording {
         duration_s: 0.4,
         sample_rate_hz: 25600.0,
-        record: vec!["housing1.*".into(), "shaft.*".into(), "bearing2.outer_ay".into()],
+        record: vec!["housing1.*".into(), "shaft.y*".into(), "bearing2.outer_ay".into()],
         accuracy: Accuracy::Standard,
         most_steps: 1e7,
         settled_s: 0.1,
@@ -173,14 +160,14 @@ fn prop_damage_at_one_end_is_heard_at_both_and_more_there() {
         let simulation =
             Simulation::of_machine(on_two(scenarios, (false, true), [0.0, -900.0], 2e-6), &recording).unwrap();
         let names: Vec<&str> = simulation.table().map(|(name, ..)| name).collect();
-        assert_eq!(names, ["bearing2.outer_ay", "shaft.y1", "housing1.sensor1", "housing1.sensor2"]);
+        assert_eq!(names, ["bearing2.outer_ay", "shaft.y_1", "housing1.sensor1", "housing1.sensor2"]);
         let mut signals = Signals::new(&simulation).unwrap();
         let outcome = simulation.run(&mut signals);
         assert_eq!((outcome.end, outcome.rows), (End::Complete, 10241));
         assert!(outcome.energy.left_open().is_none(), "{:?}", outcome.energy.relative_residual());
         assert!(outcome.momentum_imbalance.unwrap() < 1e-11);
         // The housing is rigid: its ring follows it, and the sensor sits there.
-        let [ring, sag, near, far] = ["bearing2.outer_ay", "shaft.y1", "housing1.sensor1", "housing1.sensor2"]
+        let [ring, sag, near, far] = ["bearing2.outer_ay", "shaft.y_1", "housing1.sensor1", "housing1.sensor2"]
             .map(|name| signals.get(name).unwrap()[2560..].to_vec());
         assert!(sag.iter().all(|y| (-1e-3..0.0).contains(y)));
         assert!(ring.iter().zip(&far).map(|(a, b)| (a - b).powi(2)).sum::<f64>() < far.iter().map(|a| a * a).sum());
@@ -249,10 +236,10 @@ fn analytic_two_bearings_share_the_load_of_a_bent_shaft() {
     for model in ["full", "tilting"] {
         let mut s = of(if model == "full" { "6205" } else { "NU206" }, model);
         s.simulation.start = Start::Equilibrium;
-        let (load, (beam, _)) = (9000.0, shaft(&s, false));
+        let load = 9000.0;
         let machine = on_two([&s, &s], (false, true), [0.0, -load], 0.0);
         let balance = machine.balance().unwrap();
-        let half = 0.5 * (load + 9.81 * beam.mass());
+        let half = 0.5 * (load + 9.81 * mass(&s));
         let slope = load * (AT[1] - AT[0]).powi(2) / (16.0 * STEEL.youngs_modulus * PI / 64.0 * 0.03_f64.powi(4));
         for (k, carried) in balance.bearings.iter().enumerate() {
             let own =
@@ -277,4 +264,33 @@ fn analytic_two_bearings_share_the_load_of_a_bent_shaft() {
         let left = shaft.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
         assert!(left < 0.02 * load, "{left}");
     }
+}
+
+#[test]
+fn prop_a_plan_that_holds_nothing_is_refused() {
+    let s = of("6205", "full");
+    let sound = plan([&s, &s], (false, true), [0.0, -100.0], 0.0);
+    let refused = |change: &dyn Fn(&mut Plan)| {
+        let mut plan = sound.clone();
+        change(&mut plan);
+        plan.machine().unwrap_err().to_string()
+    };
+    assert_eq!(
+        refused(&|plan| plan.bearings[1].at = 0.5),
+        "something sits at Z = 0.5 m, beyond the shaft, which reaches from 0 to 0.4 m"
+    );
+    assert_eq!(
+        refused(&|plan| drop(plan.bearings.pop())),
+        "a shaft on one bearing needs a coupling, or it turns about it"
+    );
+    assert_eq!(refused(&|plan| plan.bearings.clear()), PlanError::NoBearing.to_string());
+    assert_eq!(
+        refused(&|plan| plan.bearings[1].housing = Some(1)),
+        "bearing 2 sits in housing 2, of which there are 1"
+    );
+    assert_eq!(refused(&|plan| plan.housings[0].mass = 0.0), "a housing's mass, kg = 0: must be above 0");
+    let mut coupled = sound;
+    coupled.bearings.pop();
+    coupled.shaft.couplings.push(Spring { at: 0.0, radial: 1e6, tilt: 1e3 });
+    assert!(coupled.machine().unwrap().balance().is_ok());
 }

@@ -7,7 +7,7 @@ use crate::campaign::{self, Terminal};
 use crate::failure::Failure;
 use crate::files::make_folder;
 use crate::files::{Source, stem};
-use crate::results::{put, resumable};
+use crate::results::{Resumed, put};
 use crate::say::{self, complain, plural, pretty, say, short, twelve_digits};
 use crate::stop::stop_flag;
 use crate::sweep::duration;
@@ -45,7 +45,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let folder = args.output.clone().unwrap_or_else(named);
     let mut inputs = source.inputs();
     args.measured.iter().for_each(|path| inputs.add(path));
-    resumable(&folder, &inputs)?;
+    Resumed::Study.may_write(&folder, &inputs)?;
     make_folder(&folder)?;
     let words = |other: &Value| other_calibration(&folder, other);
     let ledger = campaign::ledger(&folder, &plan.header(), args.extend, words)?;

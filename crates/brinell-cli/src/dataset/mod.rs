@@ -8,7 +8,7 @@ use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::files::safe_name;
 use crate::inputs::Inputs;
-use crate::results::resumable;
+use crate::results::Resumed;
 use crate::say::{self, complain, plural, say};
 use crate::stop::stop_flag;
 pub(crate) use args::DatasetArgs;
@@ -54,7 +54,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     for (path, _) in [campaign.plan_file(), campaign.base_file()] {
         inputs.add(path);
     }
-    resumable(&folder, &inputs)?;
+    Resumed::DataSet.may_write(&folder, &inputs)?;
     let parts = (0..campaign.parts()).filter(|part| args.shard.has(*part));
     let runs: usize = parts.map(|part| campaign.runs_of(part).len()).sum();
     if runs == 0 && !args.quiet {
@@ -165,7 +165,7 @@ fn tell(shard: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
 }
 
 fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
-    resumable(&args.output, &Inputs::default())?;
+    Resumed::DataSet.may_write(&args.output, &Inputs::default())?;
     let merged = merge(&args.folders, &args.output)?;
     if args.json {
         say::json(&Joined { folder: args.output.display().to_string(), files: &merged });

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::figures::write_plots;
 use crate::files::make_folder;
 use crate::inputs::Inputs;
-use crate::results::resumable;
+use crate::results::Resumed;
 use crate::say::{self, complain, document, plural, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::ReproduceArgs;
@@ -38,7 +38,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     if args.model.is_some() {
         request = request.with_tilting()?;
     }
-    resumable(&args.output, &Inputs::default())?;
+    Resumed::Study.may_write(&args.output, &Inputs::default())?;
     make_folder(&args.output)?;
     let header = Value::from_iter([("campaign", "reproduce")]);
     let words = |_: &Value| {

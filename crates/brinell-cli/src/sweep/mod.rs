@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::figures::ready_pictures;
 use crate::files::make_folder;
 use crate::files::stem;
-use crate::results::{put, resumable};
+use crate::results::{Resumed, put};
 use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::SweepArgs;
@@ -47,7 +47,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         tell_points(&points, "", &bad.collect::<Vec<_>>(), "");
         return Ok(ExitCode::SUCCESS);
     }
-    resumable(&folder, &points.source.inputs())?;
+    Resumed::Study.may_write(&folder, &points.source.inputs())?;
     spare_signals(&points, &work)?;
     make_folder(&folder)?;
     let header = points.read.header();

@@ -1,4 +1,4 @@
-//! Bearings in a machine (section 25): one shaft, housings, and bearings between them that are each a [`Model`](crate::model::Model) of their own.
+//! Bearings in a machine (section 25), by a [`Plan`]: one shaft, housings, and bearings between them that are each a [`Model`](crate::model::Model) of their own.
 //!
 //! Positions are those of every bearing, in the order of its own layout, then the coordinates of every structure, then those of the points
 //! that are looked at. A ring that sits on a structure has no motion of its own: its entries follow the structure, whose accelerations are
@@ -10,9 +10,12 @@ mod balance;
 mod channels;
 mod energy;
 mod motion;
+mod plan;
 mod structure;
 
 pub use assembly::{Machine, Mount, Point, Seated};
 pub use balance::{Balance, Carried};
-pub use motion::{MachineMotion, Part, Parts};
+pub use brinell_shaft::{Disc, Material, Part, Spring};
+pub use motion::{Evaluated, MachineMotion, Parts};
+pub use plan::{Housing, OnShaft, Plan, PlanError, Shaft};
 pub use structure::{Row, Seat, Structure};

@@ -11,7 +11,7 @@ use std::borrow::BorrowMut;
 
 /// One bearing of the machine at the last evaluation.
 #[derive(Debug, Clone)]
-pub struct Part {
+pub struct Evaluated {
     /// Its contacts and flows.
     pub ws: Workspace,
     /// Its own state, positions and rates; of a bearing on its own the machine's is that.
@@ -24,7 +24,7 @@ pub struct Part {
 #[derive(Debug, Clone)]
 pub struct Parts {
     /// Of each bearing.
-    pub each: Vec<Part>,
+    pub each: Vec<Evaluated>,
     /// Flows of energy of the whole, W.
     pub power: Power,
 }
@@ -34,7 +34,7 @@ impl Parts {
     pub fn new(machine: &Machine) -> Self {
         let part = |seated: &Seated| {
             let dof = seated.model.layout.dof();
-            Part { ws: Workspace::new(&seated.model), y: Column::new(2 * dof, 0.0), a: Column::new(dof, 0.0) }
+            Evaluated { ws: Workspace::new(&seated.model), y: Column::new(2 * dof, 0.0), a: Column::new(dof, 0.0) }
         };
         Self { each: machine.bearings.iter().map(part).collect(), power: Power::default() }
     }
@@ -81,7 +81,7 @@ impl Machine {
     }
 
     /// The same where anything is coupled, with the flows of the whole.
-    fn together(&self, t: f64, y: &[f64], a: &mut [f64], parts: &mut [Part]) -> Power {
+    fn together(&self, t: f64, y: &[f64], a: &mut [f64], parts: &mut [Evaluated]) -> Power {
         let (q, v) = y.split_at(self.dof());
         let w = self.rotation.at(t).0;
         let mut power = Power::default();
@@ -115,7 +115,7 @@ impl Machine {
 
     /// Stability limit of the step at the last evaluation, s.
     pub fn longest_step(&self, parts: &Parts) -> f64 {
-        let of = |(seated, part): (&Seated, &Part)| seated.model.longest_step(&part.ws);
+        let of = |(seated, part): (&Seated, &Evaluated)| seated.model.longest_step(&part.ws);
         self.bearings.iter().zip(&parts.each).map(of).fold(self.longest, f64::min)
     }
 

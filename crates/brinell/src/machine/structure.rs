@@ -51,6 +51,19 @@ pub struct Seat {
     pub tilt: [Row; 2],
 }
 
+impl Seat {
+    /// The displacement in a direction, rad from X.
+    pub fn along(&self, direction: f64) -> Row {
+        let (sin, cos) = direction.sin_cos();
+        let [x, y] = &self.shift;
+        let (from, end) = (x.from.min(y.from), (x.from + x.values.len()).max(y.from + y.values.len()));
+        let mut all = vec![0.0; end];
+        x.push(cos, &mut all);
+        y.push(sin, &mut all);
+        Row { from, values: all.split_off(from) }
+    }
+}
+
 /// A shaft or a housing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
