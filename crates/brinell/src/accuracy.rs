@@ -7,7 +7,7 @@ use crate::solver::Settings;
 /// Tolerance of a step's error norm, sqrt(J): a fraction of the square root of the elastic energy that the bearing
 /// holds under its load, so that one number serves a bearing of any size.
 pub fn tolerance(model: &Model, accuracy: Accuracy) -> f64 {
-    tolerance_under(model, accuracy, model.load.full[0].hypot(model.load.full[1]))
+    tolerance_under(model, accuracy, model.load.size())
 }
 
 /// The same of a bearing that carries `load`, N.
@@ -61,7 +61,7 @@ const RING: f64 = 30.0;
 
 /// Settings of the solver for a model.
 pub fn settings(model: &Model, accuracy: Accuracy) -> Settings {
-    settings_under(model, accuracy, model.load.full[0].hypot(model.load.full[1]))
+    settings_under(model, accuracy, model.load.size())
 }
 
 /// Settings of the solver for bearings that carry loads, N, on structures with these coordinates of mass 1, and as many

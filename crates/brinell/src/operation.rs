@@ -155,6 +155,11 @@ impl Load {
         if self.ramp > 0.0 { (t / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
     }
 
+    /// F, N.
+    pub(crate) fn size(&self) -> f64 {
+        self.full[0].hypot(self.full[1])
+    }
+
     /// Forces on the inner and on the outer ring for a share of the load, N.
     #[inline]
     pub fn on_rings(&self, share: f64) -> ([f64; 2], [f64; 2]) {

@@ -2,8 +2,7 @@
 
 use super::structure::{Row, Seat, Structure};
 use crate::lanes::WIDTH;
-use crate::model::{Layout, Model};
-use crate::operation::Rotation;
+use crate::model::Model;
 use crate::scenario::Start;
 use crate::start;
 use crate::statics::NoBalance;
@@ -15,6 +14,17 @@ pub struct Mount {
     pub structure: usize,
     /// Where on it.
     pub seat: Seat,
+}
+
+/// A ring among a bearing's positions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ring {
+    /// x; y follows.
+    pub(super) shift: usize,
+    /// kg.
+    pub(super) mass: f64,
+    /// tau_x, and tau_y follows, with the moment of inertia, kg m^2, where it tilts.
+    pub(super) tilt: Option<(usize, f64)>,
 }
 
 /// A bearing in the machine.
@@ -29,10 +39,15 @@ pub struct Seated {
 }
 
 impl Seated {
-    /// First position of each ring's shift, and of its tilt where it tilts, in the order of `mounts`.
-    pub(super) fn rings(layout: &Layout) -> [(usize, Option<usize>); 2] {
-        let tilt = |at: usize| layout.tilts.then_some(at);
-        [(layout.inner(), tilt(layout.inner_tilt())), (layout.outer(), tilt(layout.outer_tilt()))]
+    /// The inner and the outer ring, in the order of `mounts`.
+    pub(super) fn rings(model: &Model) -> [Ring; 2] {
+        let (l, m) = (&model.layout, &model.inertia);
+        let tilts = model.tilt.as_ref().map(|tilt| [tilt.inner.inertia, tilt.outer.inertia]);
+        let tilt = |at: usize, side: usize| tilts.map(|inertia| (at, inertia[side]));
+        [
+            Ring { shift: l.inner(), mass: m.inner_ring, tilt: tilt(l.inner_tilt(), 0) },
+            Ring { shift: l.outer(), mass: m.outer_ring, tilt: tilt(l.outer_tilt(), 1) },
+        ]
     }
 
     /// Its positions among those of the machine.
@@ -67,12 +82,6 @@ pub struct Machine {
     pub(super) firsts: Vec<usize>,
     /// First of the points.
     pub(super) first_point: usize,
-    /// How the shaft turns.
-    pub rotation: Rotation,
-    /// Time over which the loads rise, s.
-    pub ramp: f64,
-    /// g, m/s^2.
-    pub gravity: [f64; 2],
     /// Longest step that every structure allows, s.
     pub(super) longest: f64,
 }
@@ -109,11 +118,21 @@ impl Machine {
         let bearings: Vec<Seated> = bearings.into_iter().map(place).collect();
         let firsts = structures.iter().map(|structure| next(structure.size())).collect();
         let first_point = next(points.len());
-        let of = &bearings[0].model;
-        let (rotation, ramp, gravity) = (of.rotation.clone(), of.load.ramp, of.gravity);
-        let limits = structures.iter().map(|structure: &Structure| structure.longest_step(rotation.max_speed()));
+        let fastest = bearings[0].model.rotation.max_speed();
+        let limits = structures.iter().map(|structure: &Structure| structure.longest_step(fastest));
         let longest = limits.fold(f64::INFINITY, f64::min);
-        Self { longest, rotation, ramp, gravity, bearings, structures, points, firsts, first_point }
+        Self { longest, bearings, structures, points, firsts, first_point }
+    }
+
+    /// The bearing whose speed, gravity and ramp of the load all have.
+    #[inline]
+    pub(super) fn leading(&self) -> &Model {
+        &self.bearings[0].model
+    }
+
+    /// The positions of all structures.
+    pub(super) fn coordinates(&self) -> std::ops::Range<usize> {
+        self.firsts.first().copied().unwrap_or(self.first_point)..self.first_point
     }
 
     /// Whether its outer ring is mounted rigidly, by forces that nobody knows.
@@ -163,38 +182,27 @@ impl Machine {
         &all[self.firsts[k]..][..self.structures[k].size()]
     }
 
-    /// At `t`: the share of the full load, and what unbalances pull with where they stand at 0 and a quarter of a turn on, 1/s^2.
+    /// What drives structures at `t`: the share of the full load, and what unbalances pull with where they stand at 0 and a quarter of a turn
+    /// on, 1/s^2.
     #[inline]
-    fn driven(&self, t: f64) -> (f64, [f64; 2]) {
-        let (w, angle) = self.rotation.at(t);
+    pub(super) fn driven(&self, t: f64) -> (f64, [f64; 2]) {
+        let of = self.leading();
+        let (w, angle) = of.rotation.at(t);
         let (sin, cos) = angle.sin_cos();
-        let change = self.rotation.acceleration(t);
-        let share = if self.ramp > 0.0 { (t / self.ramp).clamp(0.0, 1.0) } else { 1.0 };
-        (share, [w * w * cos + change * sin, w * w * sin - change * cos])
-    }
-
-    /// Writes what loads and unbalances do to each structure's coordinates at `t` into `f`, where its positions are.
-    #[inline]
-    pub(super) fn drive(&self, t: f64, f: &mut [f64]) {
-        let (share, pulls) = self.driven(t);
-        for (structure, &first) in self.structures.iter().zip(&self.firsts) {
-            for (k, f) in f[first..][..structure.size()].iter_mut().enumerate() {
-                let [at_0, quarter_on] = [0, 1].map(|turn: usize| pulls[turn] * structure.unbalance[turn][k]);
-                *f = share * structure.load[k] + at_0 + quarter_on;
-            }
-        }
+        let change = of.rotation.acceleration(t);
+        (of.load.share(t), [w * w * cos + change * sin, w * w * sin - change * cos])
     }
 
     /// Has everything that follows a structure follow it: positions, rates or accelerations.
     #[inline]
     pub(super) fn follow(&self, all: &mut [f64]) {
         for seated in &self.bearings {
-            let rings = Seated::rings(&seated.model.layout);
-            for (mount, (shift, tilt)) in seated.mounts.iter().zip(rings) {
+            let rings = Seated::rings(&seated.model);
+            for (mount, Ring { shift, tilt, .. }) in seated.mounts.iter().zip(rings) {
                 let Some(Mount { structure, seat }) = mount else { continue };
                 let [x, y] = [0, 1].map(|k: usize| seat.shift[k].of(self.of_structure(*structure, all)));
                 all[seated.first + shift..][..2].copy_from_slice(&[x, y]);
-                if let Some(tilt) = tilt {
+                if let Some((tilt, _)) = tilt {
                     let [x, y] = [0, 1].map(|k: usize| seat.tilt[k].of(self.of_structure(*structure, all)));
                     all[seated.first + tilt..][..2].copy_from_slice(&[x, y]);
                 }
@@ -211,37 +219,33 @@ impl Machine {
     /// # Errors
     /// Where the start is `equilibrium` and there is none.
     pub fn initial(&self) -> Result<Vec<f64>, NoBalance> {
-        let first = &self.bearings[0].model;
+        let first = self.leading();
         if self.is_one_bearing() {
             return start::state(first);
         }
-        let dof = self.dof();
-        let mut y = vec![0.0; 2 * dof];
-        let positions = match first.start {
-            Start::Equilibrium => self.balance()?.positions,
-            Start::Rolling | Start::Rest => self.initial_positions(),
-        };
-        y[..dof].copy_from_slice(&positions);
-        for seated in &self.bearings {
-            let own = start::off_balance(&seated.model);
-            y[dof..][seated.range()].copy_from_slice(&own[seated.model.layout.dof()..]);
+        let mut y = self.off_balance();
+        if first.start == Start::Equilibrium {
+            y[..self.dof()].copy_from_slice(&self.balance()?.positions);
         }
-        self.follow(&mut y[dof..]);
         Ok(y)
     }
 
-    /// Positions at t = 0 out of balance.
-    pub(super) fn initial_positions(&self) -> Vec<f64> {
-        let mut q = vec![0.0; self.dof()];
+    /// The same whatever the start but for rest, out of balance.
+    pub(super) fn off_balance(&self) -> Vec<f64> {
+        let mut y = vec![0.0; 2 * self.dof()];
+        let (q, v) = y.split_at_mut(self.dof());
         for seated in &self.bearings {
             let own = start::off_balance(&seated.model);
-            q[seated.range()].copy_from_slice(&own[..seated.model.layout.dof()]);
+            let (own_q, own_v) = own.split_at(seated.model.layout.dof());
+            q[seated.range()].copy_from_slice(own_q);
+            v[seated.range()].copy_from_slice(own_v);
         }
         for (structure, &first) in self.structures.iter().zip(&self.firsts) {
             let coordinates = &mut q[first..][..structure.size()];
             structure.momentum.iter().for_each(|along| along.push(start::INITIAL_OFFSET, coordinates));
         }
-        self.follow(&mut q);
-        q
+        self.follow(q);
+        self.follow(v);
+        y
     }
 }

@@ -1,6 +1,6 @@
 //! Static balance of a machine under its full load: the deflected shaft, and what each bearing carries of it.
 
-use super::assembly::{Machine, Mount, Seated};
+use super::assembly::{Machine, Mount, Ring, Seated};
 use super::structure::Row;
 use crate::statics::{NoBalance, Pressed, Problem, State, held_by, minimise, pressed};
 
@@ -30,14 +30,14 @@ pub struct Carried {
 const DAMPING: f64 = 1e4;
 
 /// A coordinate of a bearing's rings: what it is of the coordinates of the search.
-enum Ring {
+enum Place {
     /// On a structure, from that coordinate on, times a lever.
     Seated(usize, Row, f64),
     /// Its own.
     Own(usize),
 }
 
-impl Ring {
+impl Place {
     fn of(&self, z: &[f64]) -> f64 {
         match self {
             Self::Seated(from, row, lever) => lever * row.of(&z[*from..]),
@@ -60,9 +60,9 @@ impl Machine {
     /// # Errors
     /// Where something is not held against the load.
     pub fn balance(&self) -> Result<Balance, NoBalance> {
-        let of_structures = self.first_point - self.firsts.first().copied().unwrap_or(self.first_point);
-        let mut size = of_structures;
-        let rings: Vec<Vec<Ring>> = self.bearings.iter().map(|seated| self.rings(seated, &mut size)).collect();
+        let coordinates = self.coordinates();
+        let mut size = coordinates.len();
+        let rings: Vec<Vec<Place>> = self.bearings.iter().map(|seated| self.rings(seated, &mut size)).collect();
         let problems: Vec<Problem> = self.bearings.iter().map(|seated| Problem::at_start(&seated.model)).collect();
         let (springs, forces) = self.held(&rings, size);
         let scale = forces.iter().fold(1e-9_f64, |scale, f| scale.max(f.abs()));
@@ -88,10 +88,9 @@ impl Machine {
             state
         };
         let found = minimise(vec![0.0; size], &vec![true; size], (scale, 1e-6 * scale, DAMPING), evaluate)?;
-        let mut positions = self.initial_positions();
-        if let Some(&first) = self.firsts.first() {
-            positions[first..][..of_structures].copy_from_slice(&found.x[..of_structures]);
-        }
+        let mut positions = self.off_balance();
+        positions.truncate(self.dof());
+        positions[coordinates.clone()].copy_from_slice(&found.x[..coordinates.len()]);
         self.follow(&mut positions);
         let mut bearings = Vec::new();
         for (k, seated) in self.bearings.iter().enumerate() {
@@ -102,10 +101,10 @@ impl Machine {
                 own[l.beta()..][..l.rollers()].copy_from_slice(&beta[..l.rollers()]);
             }
             let (arm, of_ring) = (seated.model.geometry.pitch_radius, rings[k].len() / 2);
-            for (side, (shift, tilt)) in Seated::rings(l).into_iter().enumerate() {
+            for (side, Ring { shift, tilt, .. }) in Seated::rings(&seated.model).into_iter().enumerate() {
                 let at = |i: usize| rings[k][side * of_ring + i].of(&found.x);
                 own[shift..][..2].copy_from_slice(&[at(0), at(1)]);
-                if let Some(tilt) = tilt {
+                if let Some((tilt, _)) = tilt {
                     own[tilt..][..2].copy_from_slice(&[at(2) / arm, at(3) / arm]);
                 }
             }
@@ -124,20 +123,20 @@ impl Machine {
     }
 
     /// The coordinates of a bearing's rings; those of a ring that sits nowhere are counted up from `next` on.
-    fn rings(&self, seated: &Seated, next: &mut usize) -> Vec<Ring> {
-        let first = self.firsts.first().copied().unwrap_or(0);
+    fn rings(&self, seated: &Seated, next: &mut usize) -> Vec<Place> {
+        let first = self.coordinates().start;
         let arm = seated.model.geometry.pitch_radius;
-        let of = |mount: &Option<Mount>| -> Vec<Ring> {
+        let of = |mount: &Option<Mount>| -> Vec<Place> {
             let count = if seated.model.layout.tilts { 4 } else { 2 };
             match mount {
                 Some(Mount { structure, seat }) => {
                     let levers = seat.shift.iter().map(|row| (row, 1.0)).chain(seat.tilt.iter().map(|row| (row, arm)));
                     let from = self.firsts[*structure] - first;
-                    levers.take(count).map(|(row, lever)| Ring::Seated(from, row.clone(), lever)).collect()
+                    levers.take(count).map(|(row, lever)| Place::Seated(from, row.clone(), lever)).collect()
                 }
                 None => {
                     *next += count;
-                    (*next - count..*next).map(Ring::Own).collect()
+                    (*next - count..*next).map(Place::Own).collect()
                 }
             }
         };
@@ -145,13 +144,13 @@ impl Machine {
     }
 
     /// Springs and full forces over the coordinates of the search.
-    fn held(&self, rings: &[Vec<Ring>], size: usize) -> (Vec<Vec<f64>>, Vec<f64>) {
+    fn held(&self, rings: &[Vec<Place>], size: usize) -> (Vec<Vec<f64>>, Vec<f64>) {
         let (mut springs, mut forces) = (vec![vec![0.0; size]; size], vec![0.0; size]);
-        let first = self.firsts.first().copied().unwrap_or(0);
+        let (first, gravity) = (self.coordinates().start, self.leading().gravity);
         for (structure, &at) in self.structures.iter().zip(&self.firsts) {
             let onto = &mut forces[at - first..];
             onto.iter_mut().zip(&structure.load).for_each(|(f, load)| *f += load);
-            (0..2).for_each(|k| structure.momentum[k].push(self.gravity[k], onto));
+            (0..2).for_each(|k| structure.momentum[k].push(gravity[k], onto));
             structure
                 .squares
                 .iter()
@@ -162,9 +161,9 @@ impl Machine {
             let [own_springs, mut own] = held_by(&seated.model);
             // The weight of a ring on a structure is that structure's.
             let (model, half) = (&seated.model, rings.len() / 2);
-            for (side, mass) in [model.inertia.inner_ring, model.inertia.outer_ring].into_iter().enumerate() {
+            for (side, ring) in Seated::rings(model).into_iter().enumerate() {
                 if seated.mounts[side].is_some() {
-                    (0..2).for_each(|k| own[side * half + k] -= mass * model.gravity[k]);
+                    (0..2).for_each(|k| own[side * half + k] -= ring.mass * model.gravity[k]);
                 }
             }
             let alone: Vec<Vec<f64>> = (0..own.len())
@@ -178,7 +177,7 @@ impl Machine {
 }
 
 /// Adds a matrix over the coordinates of a bearing's rings to that over those of the search.
-fn spread(of: &[Vec<f64>], rings: &[Ring], onto: &mut [Vec<f64>]) {
+fn spread(of: &[Vec<f64>], rings: &[Place], onto: &mut [Vec<f64>]) {
     let size = onto.len();
     for (row, own) in rings.iter().zip(of) {
         // The row of the bearing, over all coordinates, then along its own ring.

@@ -1,6 +1,6 @@
 //! Energy and momentum of a self.
 
-use super::assembly::{Machine, Mount, Seated};
+use super::assembly::{Machine, Mount, Ring, Seated};
 use super::motion::{Parts, forces_on_ring};
 use crate::model::{Energy, imbalance};
 
@@ -9,7 +9,7 @@ impl Machine {
     /// there.
     pub fn energy(&self, t: f64, y: &[f64], parts: &Parts) -> Energy {
         if self.is_one_bearing() {
-            return Energy::of(&self.bearings[0].model, t, y, &parts.each[0].ws);
+            return Energy::of(self.leading(), t, y, &parts.each[0].ws);
         }
         let (q, v) = y.split_at(self.dof());
         let mut whole = Energy::default();
@@ -17,27 +17,21 @@ impl Machine {
             let (model, own) = (&seated.model, parts.state(self, k, y));
             let mut of = Energy::of(model, t, own, &part.ws);
             let (own_q, own_v) = own.split_at(model.layout.dof());
-            for side in (0..2).filter(|side| seated.mounts[*side].is_some()) {
-                let (shift, tilt) = Seated::rings(&model.layout)[side];
-                let mass = [model.inertia.inner_ring, model.inertia.outer_ring][side];
-                of.kinetic -= 0.5 * mass * (own_v[shift].powi(2) + own_v[shift + 1].powi(2));
+            for (_, ring) in seated.mounts.iter().zip(Seated::rings(model)).filter(|(mount, _)| mount.is_some()) {
+                let square = |at: usize| own_v[at].powi(2) + own_v[at + 1].powi(2);
+                let Ring { shift, mass, tilt } = ring;
+                of.kinetic -= 0.5 * mass * square(shift);
+                of.kinetic -= tilt.map_or(0.0, |(at, inertia)| 0.5 * inertia * square(at));
                 of.gravity += mass * (model.gravity[0] * own_q[shift] + model.gravity[1] * own_q[shift + 1]);
-                if let (Some(tilting), Some(at)) = (&model.tilt, tilt) {
-                    let inertia = [tilting.inner.inertia, tilting.outer.inertia][side];
-                    of.kinetic -= 0.5 * inertia * (own_v[at].powi(2) + own_v[at + 1].powi(2));
-                }
             }
-            whole.kinetic += of.kinetic;
-            whole.contacts += of.contacts;
-            whole.cage += of.cage;
-            whole.supports += of.supports;
-            whole.gravity += of.gravity;
+            whole += of;
         }
+        let gravity = self.leading().gravity;
         for (structure, &first) in self.structures.iter().zip(&self.firsts) {
             let [kinetic, elastic] = structure.energy((&q[first..], &v[first..]));
             whole.kinetic += kinetic;
             whole.supports += elastic;
-            whole.gravity -= (0..2).map(|k| self.gravity[k] * structure.momentum[k].of(&q[first..])).sum::<f64>();
+            whole.gravity -= (0..2).map(|k| gravity[k] * structure.momentum[k].of(&q[first..])).sum::<f64>();
         }
         whole
     }
@@ -46,7 +40,7 @@ impl Machine {
     /// ([`imbalance`](crate::model::imbalance)), or on any structure; `a` are the accelerations at `t` and `y`. `None` where it is not defined.
     pub fn imbalance(&self, (t, y, a): (f64, &[f64], &[f64]), parts: &Parts) -> Option<f64> {
         if self.is_one_bearing() {
-            return imbalance(&self.bearings[0].model, t, y, a, &parts.each[0].ws);
+            return imbalance(self.leading(), t, y, a, &parts.each[0].ws);
         }
         let of_bearings = self
             .bearings
@@ -63,19 +57,15 @@ impl Machine {
         let (q, v) = y.split_at(self.dof());
         let structure = &self.structures[k];
         let (q, v, a) = (self.of_structure(k, q), self.of_structure(k, v), self.of_structure(k, a));
-        let mut driven = vec![0.0; self.dof()];
-        self.drive(t, &mut driven);
+        let (driven, gravity) = (self.driven(t), self.leading().gravity);
+        // What a rigid motion feels: no spring between the structure's own parts, and no gyroscopic term.
+        let outer = |k: usize| structure.driving(k, driven) - structure.squares[k] * q[k] - structure.dampers[k] * v[k];
         let mut worst: f64 = 0.0;
         for along in 0..2 {
             let momentum = &structure.momentum[along];
-            let mass = momentum.square();
-            // What a rigid motion feels: no spring between the structure's own parts, and no gyroscopic term.
-            let pulls = self.of_structure(k, &driven);
-            let outer: Vec<f64> = (0..structure.size())
-                .map(|k| pulls[k] - structure.squares[k] * q[k] - structure.dampers[k] * v[k])
-                .collect();
-            let mut sum = momentum.of(&outer) + mass * self.gravity[along] - momentum.of(a);
-            let mut scale = momentum.of(a).abs() + mass * self.gravity[along].abs() + momentum.of(&outer).abs();
+            let (pulled, weight) = (momentum.of_each(outer), momentum.square() * gravity[along]);
+            let mut sum = pulled + weight - momentum.of(a);
+            let mut scale = momentum.of(a).abs() + weight.abs() + pulled.abs();
             for (seated, part) in self.bearings.iter().zip(&parts.each) {
                 for (side, mount) in seated.mounts.iter().enumerate() {
                     if !matches!(mount, Some(Mount { structure, .. }) if *structure == k) {

@@ -1,6 +1,6 @@
 //! A machine as the system that the solver integrates.
 
-use super::assembly::{Machine, Mount, Seated};
+use super::assembly::{Machine, Mount, Ring, Seated};
 use crate::accuracy::{self, settings_together};
 use crate::channel::Frame;
 use crate::lanes::Column;
@@ -49,18 +49,18 @@ impl Machine {
     /// Settings of the solver.
     pub fn settings(&self, accuracy: Accuracy) -> Settings {
         if self.is_one_bearing() {
-            return accuracy::settings(&self.bearings[0].model, accuracy);
+            return accuracy::settings(self.leading(), accuracy);
         }
-        let pulled = self.structures.iter().map(|structure| structure.pulled(self.gravity));
+        let gravity = self.leading().gravity;
+        let pulled = self.structures.iter().map(|structure| structure.pulled(gravity));
         let each = pulled.map(|[x, y]| x.hypot(y)).sum::<f64>() / self.bearings.len() as f64;
         let bearings: Vec<_> = self.bearings.iter().map(|seated| (seated.first, &seated.model, each)).collect();
-        let first = self.firsts.first().copied().unwrap_or(self.first_point);
-        let mut settings = settings_together(&bearings, first..self.first_point, self.dof(), accuracy);
+        let mut settings = settings_together(&bearings, self.coordinates(), self.dof(), accuracy);
         for seated in &self.bearings {
-            let rings = Seated::rings(&seated.model.layout);
+            let rings = Seated::rings(&seated.model);
             // What follows counts where it follows.
-            for (_, (shift, tilt)) in seated.mounts.iter().zip(rings).filter(|(mount, _)| mount.is_some()) {
-                for at in [Some(shift), tilt].into_iter().flatten() {
+            for (_, ring) in seated.mounts.iter().zip(rings).filter(|(mount, _)| mount.is_some()) {
+                for at in [Some(ring.shift), ring.tilt.map(|(at, _)| at)].into_iter().flatten() {
                     settings.mass[seated.first + at..][..2].fill(0.0);
                 }
             }
@@ -73,7 +73,7 @@ impl Machine {
     pub fn accelerations(&self, t: f64, y: &[f64], a: &mut [f64], parts: &mut Parts) {
         if self.is_one_bearing() {
             let ws = &mut parts.each[0].ws;
-            self.bearings[0].model.accelerations(t, y, a, ws);
+            self.leading().accelerations(t, y, a, ws);
             parts.power = ws.power;
         } else {
             parts.power = self.together(t, y, a, &mut parts.each);
@@ -83,13 +83,14 @@ impl Machine {
     /// The same where anything is coupled, with the flows of the whole.
     fn together(&self, t: f64, y: &[f64], a: &mut [f64], parts: &mut [Evaluated]) -> Power {
         let (q, v) = y.split_at(self.dof());
-        let w = self.rotation.at(t).0;
+        let (w, gravity) = (self.leading().rotation.at(t).0, self.leading().gravity);
+        let driven = self.driven(t);
         let mut power = Power::default();
-        self.drive(t, a);
         for (structure, &first) in self.structures.iter().zip(&self.firsts) {
             let (f, rates) = (&mut a[first..][..structure.size()], &v[first..]);
+            f.iter_mut().enumerate().for_each(|(k, f)| *f = structure.driving(k, driven));
             power.load += f.iter().zip(rates).map(|(f, v)| f * v).sum::<f64>();
-            (0..2).for_each(|k| structure.momentum[k].push(self.gravity[k], f));
+            (0..2).for_each(|k| structure.momentum[k].push(gravity[k], f));
             power.support += structure.hold((&q[first..], rates), w, f);
         }
         for (seated, part) in self.bearings.iter().zip(parts) {
@@ -167,15 +168,8 @@ impl<P: BorrowMut<Parts>> System for MachineMotion<'_, P> {
 /// if it were free.
 #[inline]
 pub(super) fn forces_on_ring(model: &Model, side: usize, a: &[f64]) -> [[f64; 2]; 2] {
-    let (shift, tilt) = Seated::rings(&model.layout)[side];
-    let mass = [model.inertia.inner_ring, model.inertia.outer_ring][side];
+    let Ring { shift, mass, tilt } = Seated::rings(model)[side];
     let force = [0, 1].map(|k: usize| mass * (a[shift + k] - model.gravity[k]));
-    let moment = match (&model.tilt, tilt) {
-        (Some(of), Some(at)) => {
-            let inertia = [of.inner.inertia, of.outer.inertia][side];
-            [0, 1].map(|k: usize| inertia * a[at + k])
-        }
-        _ => [0.0; 2],
-    };
+    let moment = tilt.map_or([0.0; 2], |(at, inertia)| [0, 1].map(|k: usize| inertia * a[at + k]));
     [force, moment]
 }

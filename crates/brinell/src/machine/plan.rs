@@ -51,6 +51,11 @@ impl Shaft {
             is_rigid: false,
         }
     }
+
+    /// m.
+    fn length(&self) -> f64 {
+        self.parts.iter().map(|part| part.length).sum()
+    }
 }
 
 /// A bearing on the shaft.
@@ -197,7 +202,7 @@ impl Plan {
         if let Some((k, housing)) = lost {
             return Err(PlanError::NoHousing { bearing: k + 1, housing: housing + 1, count });
         }
-        let length: f64 = shaft.parts.iter().map(|part| part.length).sum();
+        let length = shaft.length();
         match places(shaft, bearings).into_iter().find(|at| !(0.0..=length).contains(at)) {
             Some(at) => Err(PlanError::Beyond { at, length }),
             None => Ok(()),
@@ -215,7 +220,7 @@ fn places(shaft: &Shaft, bearings: &[OnShaft]) -> Vec<f64> {
 
 /// The shaft as a beam with the inner rings on it, and in its modes: with residual vectors wherever a force acts.
 fn bend(shaft: &Shaft, bearings: &[OnShaft]) -> Result<(Beam, Reduced), PlanError> {
-    let length: f64 = shaft.parts.iter().map(|part| part.length).sum();
+    let length = shaft.length();
     let mut discs = shaft.discs.clone();
     for OnShaft { model, at, .. } in bearings {
         let turning = model.tilt.as_ref().map_or((0.0, 0.0), |tilt| (tilt.inner.inertia, tilt.inner.polar_inertia));

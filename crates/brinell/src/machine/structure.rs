@@ -30,6 +30,11 @@ impl Row {
         self.values.iter().zip(&coordinates[self.from..]).map(|(share, q)| share * q).sum()
     }
 
+    /// The same of what `each` coordinate has.
+    pub(super) fn of_each(&self, each: impl Fn(usize) -> f64) -> f64 {
+        self.values.iter().enumerate().map(|(k, share)| share * each(self.from + k)).sum()
+    }
+
     /// The sum of its squares.
     pub(super) fn square(&self) -> f64 {
         self.values.iter().map(|share| share * share).sum()
@@ -158,6 +163,12 @@ impl Structure {
     /// Load and weight together, N, along X and Y.
     pub(super) fn pulled(&self, gravity: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k: usize| self.momentum[k].of(&self.load) + self.momentum[k].square() * gravity[k])
+    }
+
+    /// What loads and unbalances do to coordinate `k` ([`Machine::driven`](super::Machine)).
+    #[inline]
+    pub(super) fn driving(&self, k: usize, (share, pulls): (f64, [f64; 2])) -> f64 {
+        share * self.load[k] + pulls[0] * self.unbalance[0][k] + pulls[1] * self.unbalance[1][k]
     }
 
     /// Adds springs, dampers and gyroscopic terms at the speed `w` to the forces `f`, and gives what the dampers take, W.

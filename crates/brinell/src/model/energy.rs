@@ -26,6 +26,17 @@ pub struct Energy {
     pub gravity: f64,
 }
 
+impl std::ops::AddAssign for Energy {
+    fn add_assign(&mut self, other: Self) {
+        let Self { kinetic, contacts, cage, supports, gravity } = other;
+        self.kinetic += kinetic;
+        self.contacts += contacts;
+        self.cage += cage;
+        self.supports += supports;
+        self.gravity += gravity;
+    }
+}
+
 impl Energy {
     /// All of it.
     pub fn total(&self) -> f64 {

@@ -4,48 +4,15 @@ use super::balance::NoBalance;
 
 const MAX_ITERATIONS: usize = 200;
 
-/// A square matrix by rows, of a size that the compiler knows or not.
-pub(crate) trait Square: Clone {
-    /// Row `i`.
-    fn row(&self, i: usize) -> &[f64];
-    /// Row `i`, to be changed.
-    fn row_mut(&mut self, i: usize) -> &mut [f64];
-    /// Exchanges two rows.
-    fn swap_rows(&mut self, i: usize, j: usize);
-}
-
-impl<const N: usize> Square for [[f64; N]; N] {
-    fn row(&self, i: usize) -> &[f64] {
-        &self[i]
-    }
-
-    fn row_mut(&mut self, i: usize) -> &mut [f64] {
-        &mut self[i]
-    }
-
-    fn swap_rows(&mut self, i: usize, j: usize) {
-        self.swap(i, j);
-    }
-}
-
-impl Square for Vec<Vec<f64>> {
-    fn row(&self, i: usize) -> &[f64] {
-        &self[i]
-    }
-
-    fn row_mut(&mut self, i: usize) -> &mut [f64] {
-        &mut self[i]
-    }
-
-    fn swap_rows(&mut self, i: usize, j: usize) {
-        self.swap(i, j);
-    }
-}
-
 /// Coordinates.
 pub(crate) trait Vector: Clone + AsRef<[f64]> + AsMut<[f64]> {}
 
 impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Vector for V {}
+
+/// A square matrix by its rows.
+pub(crate) trait Square<V>: Clone + AsRef<[V]> + AsMut<[V]> {}
+
+impl<V, M: Clone + AsRef<[V]> + AsMut<[V]>> Square<V> for M {}
 
 /// Potential energy with its derivatives.
 pub(crate) struct State<V, M> {
@@ -85,7 +52,7 @@ pub(crate) struct Minimum<V> {
 
 /// The minimum near `guess` over the coordinates that are `free`; the others stay at 0. `scale` is the largest force at
 /// play, `stalled` the residual with which a search that gets no farther has found it, `damping` what is added to the Hessian at first.
-pub(crate) fn minimise<V: Vector, M: Square>(
+pub(crate) fn minimise<V: Vector, M: Square<V>>(
     guess: V,
     free: &[bool],
     (scale, stalled, mut damping): (f64, f64, f64),
@@ -96,9 +63,10 @@ pub(crate) fn minimise<V: Vector, M: Square>(
         let mut state = evaluate(x);
         for i in (0..n).filter(|&i| !free[i]) {
             state.gradient.as_mut()[i] = 0.0;
+            let rows = state.hessian.as_mut();
             for j in 0..n {
-                state.hessian.row_mut(i)[j] = 0.0;
-                state.hessian.row_mut(j)[i] = 0.0;
+                rows[i].as_mut()[j] = 0.0;
+                rows[j].as_mut()[i] = 0.0;
             }
         }
         state
@@ -120,7 +88,7 @@ pub(crate) fn minimise<V: Vector, M: Square>(
         let mut improved = false;
         for _ in 0..60 {
             let (mut damped, mut down) = (state.hessian.clone(), state.gradient.clone());
-            (0..n).for_each(|k| damped.row_mut(k)[k] += if free[k] { damping } else { 1.0 });
+            (0..n).for_each(|k| damped.as_mut()[k].as_mut()[k] += if free[k] { damping } else { 1.0 });
             down.as_mut().iter_mut().for_each(|g| *g = -*g);
             let Some(step) = eliminate(damped, down) else {
                 damping *= 10.0;
@@ -150,31 +118,34 @@ pub(crate) fn minimise<V: Vector, M: Square>(
 }
 
 /// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
-pub(crate) fn eliminate<V: Vector, M: Square>(mut a: M, mut x: V) -> Option<V> {
-    let b = x.as_mut();
+pub(crate) fn eliminate<V: Vector, M: Square<V>>(mut a: M, mut x: V) -> Option<V> {
+    let (a, b) = (a.as_mut(), x.as_mut());
     let n = b.len();
     for column in 0..n {
-        let size = |i: usize| a.row(i)[column].abs();
+        let size = |i: usize| a[i].as_ref()[column].abs();
         let pivot = (column..n).max_by(|&i, &j| size(i).total_cmp(&size(j)))?;
         if size(pivot) == 0.0 || !size(pivot).is_finite() {
             return None;
         }
-        a.swap_rows(column, pivot);
+        a.swap(column, pivot);
         b.swap(column, pivot);
-        for row in column + 1..n {
-            let factor = a.row(row)[column] / a.row(column)[column];
+        let (above, below) = a.split_at_mut(column + 1);
+        let above = above[column].as_ref();
+        for (row, of) in (column + 1..n).zip(below) {
+            let of = of.as_mut();
+            let factor = of[column] / above[column];
             for k in column..n {
-                let above = a.row(column)[k];
-                a.row_mut(row)[k] -= factor * above;
+                of[k] -= factor * above[k];
             }
             b[row] -= factor * b[column];
         }
     }
     for row in (0..n).rev() {
+        let of = a[row].as_ref();
         for k in row + 1..n {
-            b[row] -= a.row(row)[k] * b[k];
+            b[row] -= of[k] * b[k];
         }
-        b[row] /= a.row(row)[row];
+        b[row] /= of[row];
     }
     Some(x)
 }
