@@ -76,7 +76,7 @@ fn run(scenario: &Scenario, beforehand: bool, mut go_on: impl FnMut(f64) -> Cont
     let passes = Passes::new(simulation.model());
     let mut recorder = Recorder { signals, passes, events: Vec::new(), go_on: &mut go_on };
     let finished = result::finish(scenario.clone(), simulation, &mut recorder);
-    let beforehand = beforehand.then(|| Beforehand::of(scenario, finished.simulation.model()));
+    let beforehand = beforehand.then(|| Beforehand::of_run(scenario, &finished.simulation));
     Ran::Over(Box::new(finished), recorder.signals, recorder.events, beforehand)
 }
 
@@ -218,7 +218,7 @@ impl Run {
                 simulation,
                 outcome: &self.finished.outcome,
                 findings: &self.finished.findings,
-                beforehand: self.beforehand.get_or_init(|| Beforehand::of(&loaded.scenario, simulation.model())),
+                beforehand: self.beforehand.get_or_init(|| Beforehand::of_run(&loaded.scenario, simulation)),
                 healthy,
             })
         })
@@ -303,7 +303,7 @@ impl Run {
             return Ok(None);
         };
         let dict = crate::signal::spectrum_dict(py, spectrum.clone())?;
-        dict.set_item("channel", self.finished.findings.sensor_name())?;
+        dict.set_item("channel", &self.finished.findings.sensor)?;
         Ok(Some(dict))
     }
 
@@ -313,7 +313,7 @@ impl Run {
             return Ok(None);
         };
         let dict = crate::signal::spectrum_dict(py, envelope.spectrum.clone())?;
-        dict.set_item("channel", self.finished.findings.sensor_name())?;
+        dict.set_item("channel", &self.finished.findings.sensor)?;
         dict.set_item("band_hz", (band.low, band.high))?;
         dict.set_item("mean", envelope.mean)?;
         Ok(Some(dict))

@@ -21,6 +21,13 @@ pub struct Equations {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Port(pub DVector<f64>);
 
+impl Port {
+    /// Of nothing, among so many coordinates of a plane.
+    pub fn zeros(size: usize) -> Self {
+        Self(DVector::zeros(size))
+    }
+}
+
 /// A linear bearing or support at a place of the shaft: the force on it is -K (x, y) - C d(x, y)/dt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linear {

@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .into(),
     };
     let on_shaft = |scenario: &Scenario, at| -> Result<OnShaft, Box<dyn Error>> {
-        Ok(OnShaft { model: Model::new(scenario)?, at, housing: Some(0) })
+        Ok(OnShaft::new(Model::new(scenario)?, at, Some(0)))
     };
     let bearings = vec![on_shaft(&damaged, DRIVE_END)?, on_shaft(&healthy, FAN_END)?];
     let machine = Plan { shaft, bearings, housings: vec![housing] }.machine()?;

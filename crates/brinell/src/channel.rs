@@ -317,7 +317,14 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
 #[doc(hidden)]
 pub fn unit_of_run(name: &str, sensor: &Sensor) -> Option<&'static str> {
     let of_sensor = sensor_channels(sensor).into_iter().find(|c| c.name == name).map(|c| c.unit);
-    of_sensor.or_else(|| (name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2"))
+    let accelerates = name.starts_with("housing") || name.starts_with("shaft.") && !is_displacement(name);
+    of_sensor.or_else(|| (accelerates || name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2"))
+}
+
+/// Whether it is the displacement of a shaft's station, `shaft.x1`.
+fn is_displacement(name: &str) -> bool {
+    let number = name.strip_prefix("shaft.x").or_else(|| name.strip_prefix("shaft.y"));
+    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// Accelerations of rings and cages: the channels that an anti-alias filter makes sense of.

@@ -1,6 +1,7 @@
 //! What follows from a scenario before anything moves: stiffnesses, time scales, the static load zone. SI.
 
 mod json;
+mod machine;
 
 use crate::accuracy::settings;
 use crate::bearing::Kinematics;
@@ -8,7 +9,8 @@ use crate::defect::{Defect, SIDES, Side};
 use crate::model::Model;
 use crate::scenario::{Accuracy, Surface};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
-pub use json::{frequencies, to_json};
+pub use json::{frequencies, machine_to_json, to_json};
+pub use machine::{DerivedBearing, DerivedMachine};
 use std::f64::consts::TAU;
 
 /// Derived quantities, as `brinell check` prints them.

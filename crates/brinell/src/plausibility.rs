@@ -7,6 +7,7 @@
 
 mod after;
 mod damage;
+mod machine;
 mod table;
 mod tilting;
 mod warning;
@@ -21,13 +22,13 @@ use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
 use crate::scenario::{Choice, GeometryLaw, LoadOn, Scenario, Speed};
+use crate::simulate::Simulation;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::{after, converted, doubtful, of_energy, strayed, unsettled};
+pub use machine::carried;
 use std::f64::consts::TAU;
-use warning::{short, warning};
+use warning::{WEIGHT_SHARE, short, warning};
 
-/// Share of the load beyond which a weight that is left out is worth a warning.
-const WEIGHT_SHARE: f64 = 0.1;
 /// Share of the load beyond which what a support carries is worth a warning.
 const SUPPORT_SHARE: f64 = 0.1;
 /// Share of the pitch radius by which the bearing may sink as a whole: up to so much off do the cage's and the outer race's
@@ -53,6 +54,28 @@ impl Beforehand {
     pub fn of(scenario: &Scenario, model: &Model) -> Self {
         let statics = static_load_zone(model);
         Beforehand { warnings: before(scenario, model, &statics), statics }
+    }
+
+    /// Of a simulation; of a machine's: the bearing that is observed under what it carries, with the warnings of all.
+    pub fn of_run(scenario: &Scenario, simulation: &Simulation) -> Self {
+        let Some(of) = &scenario.machine else { return Self::of(scenario, simulation.model()) };
+        let machine = simulation.machine();
+        match machine.balance() {
+            Ok(balance) => {
+                let mut each: Vec<Self> =
+                    carried(scenario, machine, &balance).iter().map(|(alone, model)| Self::of(alone, model)).collect();
+                let mut warnings = machine::warnings(scenario, simulation);
+                for (k, one) in each.iter().enumerate() {
+                    warnings.extend(machine::of_bearing(k, &one.warnings));
+                }
+                Self { statics: each.swap_remove(of.lead).statics, warnings: few_of_a_kind(warnings) }
+            }
+            Err(error) => {
+                let mut warnings = machine::warnings(scenario, simulation);
+                warnings.push(Problem::warning("shaft", error.to_string()));
+                Self { statics: Err(error), warnings }
+            }
+        }
     }
 }
 

@@ -376,12 +376,17 @@ fn sensor(parts: &Parts) -> Option<Sensor> {
 /// show, and that of the damaged bearing over it.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Healthy {
-    channel: &'static str,
+    channel: String,
     unit: &'static str,
     rms: Option<Estimate>,
     ratio: Option<Ratio>,
 }
 
 fn beside(findings: &Findings, healthy: &Findings) -> Healthy {
-    Healthy { channel: healthy.sensor_name(), unit: "m/s^2", rms: healthy.rms(), ratio: findings.over_healthy(healthy) }
+    Healthy {
+        channel: healthy.sensor.clone(),
+        unit: "m/s^2",
+        rms: healthy.rms(),
+        ratio: findings.over_healthy(healthy),
+    }
 }

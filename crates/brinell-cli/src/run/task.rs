@@ -59,7 +59,7 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
     let simulation = Simulation::unchecked(&loaded.scenario)?;
-    let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
+    let beforehand = Beforehand::of_run(&loaded.scenario, &simulation);
     let cost = match forecast(&simulation) {
         Err(error) if error.is_bad_input() => return Err(error.into()),
         tried => tried.ok(),

@@ -94,7 +94,7 @@ fn healthy_line(parts: &Parts) -> Option<String> {
         .map_or(String::new(), |(low, high)| format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3)));
     Some(format!(
         "  {} without the damage: RMS {} m/s^2; damaged over healthy {}{interval}",
-        healthy.sensor_name(),
+        healthy.sensor,
         short(rms.value, 3),
         short(ratio.value, 3),
     ))

@@ -20,13 +20,15 @@ const COLUMNS: [(Indicator, &str); 5] = [
     (Indicator::Skewness, "Skewness"),
 ];
 
-pub(super) fn axis(parts: &Parts) -> &'static str {
-    ["x", "y"][parts.findings.axis]
+/// What the signal is called where a spectrum is of it.
+pub(super) fn axis<'a>(parts: &Parts<'a>) -> &'a str {
+    parts.findings.sensor.strip_prefix("sensor_a").unwrap_or(&parts.findings.sensor)
 }
 
 /// What waveform and spectra show.
 pub(super) fn sensor_label(parts: &Parts) -> String {
     let what = match parts.simulation.sensor() {
+        _ if parts.loaded.scenario.machine.is_some() => return format!("Acceleration, {}", parts.findings.sensor),
         Some(_) => "Acceleration at the sensor",
         None => "Outer ring acceleration",
     };
@@ -168,8 +170,10 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         })
         .collect();
     // What a sensor sees comes first.
-    rows.sort_by_key(|r| (!r.channel.starts_with("sensor"), r.kind == "instantaneous"));
-    let of = match parts.findings.sensor().is_some_and(|c| c.blocks.revolutions() == 0) {
+    rows.sort_by_key(|r| {
+        (!r.channel.starts_with("sensor") && r.channel != parts.findings.sensor, r.kind == "instantaneous")
+    });
+    let of = match parts.findings.of_sensor().is_some_and(|c| c.blocks.revolutions() == 0) {
         true => "No whole revolution was analysed: averages and peaks are those of the record.",
         false => {
             "Averages over whole revolutions, in brackets their 95 % intervals, scatter only: what is assumed is not in them (`brinell run --spread`); peaks are those of a revolution."

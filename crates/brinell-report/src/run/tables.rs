@@ -13,11 +13,12 @@ use brinell::simulate::Outcome;
 
 pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
-    if let Some(channel) = parts.findings.sensor() {
+    if let Some(channel) = parts.findings.of_sensor() {
         for (indicator, label) in [
             (
                 Indicator::Rms,
                 match parts.simulation.sensor() {
+                    _ if parts.loaded.scenario.machine.is_some() => "RMS of the acceleration at the sensor",
                     Some(_) => "RMS of the acceleration at the sensor",
                     None => "RMS of the outer ring's acceleration",
                 },

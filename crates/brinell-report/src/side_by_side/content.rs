@@ -166,8 +166,7 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
             "the runs' durations differ: the largest of a whole run (record_*) grows with it; everything else compares",
         );
     }
-    let axis = |run: &RunResult| run.findings.axis;
-    if runs.iter().any(|run| axis(run) != axis(runs[0])) {
+    if runs.iter().any(|run| run.findings.sensor != runs[0].findings.sensor) {
         warn(
             "the loads point along different axes: curves show each run's own, the one nearer its load, with the channel in the legend; the headline numbers of the \
              sensor compare these axes, and so do levels of the envelope and peaks of entries and exits; the tables compare every other channel with the same one",

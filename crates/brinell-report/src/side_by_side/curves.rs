@@ -5,7 +5,6 @@ use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
 use crate::page::Piece;
 use crate::run::found_markers;
-use brinell::channel::SENSOR;
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
@@ -20,12 +19,11 @@ struct Shown {
 
 impl Shown {
     fn of(names: &[String], runs: &[&RunResult]) -> Self {
-        let channel = |run: &RunResult| SENSOR[run.findings.axis];
-        match all_alike(runs.iter().map(|run| channel(run))) {
+        match all_alike(runs.iter().map(|run| &run.findings.sensor)) {
             Some(one) => Self { label: format!("acceleration {one}"), names: names.to_vec() },
             None => Self {
                 label: "sensor acceleration".into(),
-                names: names.iter().zip(runs).map(|(name, run)| format!("{name} ({})", channel(run))).collect(),
+                names: names.iter().zip(runs).map(|(name, run)| format!("{name} ({})", run.findings.sensor)).collect(),
             },
         }
     }

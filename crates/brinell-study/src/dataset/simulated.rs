@@ -135,7 +135,7 @@ impl<'a> Run<'a> {
         let findings = self.findings()?;
         let (loaded, RunResult { scenario, simulation, outcome, .. }) =
             (self.loaded.as_ref()?, &self.ended.as_ref()?.0);
-        let beforehand = &Beforehand::of(scenario, simulation.model());
+        let beforehand = &Beforehand::of_run(scenario, simulation);
         Some(Parts { loaded, simulation, outcome, findings, beforehand, healthy: None }.warnings())
     }
 

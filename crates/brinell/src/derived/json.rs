@@ -1,8 +1,10 @@
 //! What follows from a scenario, as JSON: `brinell check --json` and Python's `derived`.
 
-use super::Derived;
+use super::machine::rpm;
+use super::{Derived, DerivedBearing, DerivedMachine};
 use crate::bearing::rating::static_rating;
 use crate::lamina::{Distribution, Peak, Rating};
+use crate::machine::{Coefficients, Mode, Whirl};
 use crate::model::Model;
 use crate::plausibility::before;
 use crate::pressure::{pressures, static_limit};
@@ -46,6 +48,32 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
         "static_load_rating_n": static_rating(&s.bearing).load,
         "slices": rating.map(|rating| in_slices(&rating)),
         "warnings": warnings,
+    })
+}
+
+/// The same of a machine: each bearing as on its own under the load that it carries, and what it carries; natural frequencies at the top speed and
+/// critical speeds.
+pub fn machine_to_json(scenario: &Scenario, of: &DerivedMachine) -> Value {
+    let whirl = |whirl: Whirl| if whirl == Whirl::Forward { "forward" } else { "backward" };
+    let bearing = |one: &DerivedBearing| {
+        let mut json = to_json(&one.scenario, &one.model, &one.derived);
+        json["force_n"] = json!(one.carried.force);
+        json["moment_nm"] = json!(one.carried.moment);
+        json["misalignment_mrad"] = json!(one.carried.misalignment.map(|slope| 1e3 * slope));
+        let Coefficients { stiffness, damping } = one.coefficients();
+        json["stiffness_n_per_m"] = json!(stiffness);
+        json["damping_ns_per_m"] = json!(damping);
+        json
+    };
+    let mode = |mode: Mode| json!({ "frequency_hz": mode.frequency, "damping_ratio": mode.damping_ratio, "whirl": whirl(mode.whirl) });
+    let critical = |(speed, way): (f64, Whirl)| json!({ "speed_rpm": rpm(speed), "whirl": whirl(way) });
+    json!({
+        "name": scenario.name,
+        "top_speed_rpm": rpm(of.top_speed),
+        "shaft_weight_n": of.weight,
+        "bearings": of.bearings.iter().map(bearing).collect::<Vec<_>>(),
+        "modes": of.modes(of.top_speed).into_iter().map(mode).collect::<Vec<_>>(),
+        "critical_speeds": of.critical_speeds().into_iter().map(critical).collect::<Vec<_>>(),
     })
 }
 

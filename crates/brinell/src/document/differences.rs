@@ -65,7 +65,8 @@ impl Scenario {
     /// The set of laws that it names, and the keys of contacts, cage, friction, housing and geometry that hold something
     /// else than that set has for this bearing.
     pub fn laws_and_differences(&self) -> LawsInForce {
-        let mut walk = Differing { path: Vec::new(), laws: self.simulation.laws, found: Vec::new() };
+        let in_machine = self.machine.is_some();
+        let mut walk = Differing { path: Vec::new(), laws: self.simulation.laws, in_machine, found: Vec::new() };
         sections::scenario(&mut walk, &mut self.clone());
         LawsInForce { laws: self.simulation.laws, differences: walk.found }
     }
@@ -75,13 +76,16 @@ impl Scenario {
 struct Differing {
     path: Vec<&'static str>,
     laws: Laws,
+    in_machine: bool,
     found: Vec<Difference>,
 }
 
 impl Differing {
     fn compare<T: ValueType>(&mut self, spec: &Spec, fallback: Fallback<T>, value: &T) {
         let key = [&self.path[..], &[spec.name]].concat().join(".");
-        if !OF_THE_SET.contains(&key.as_str()) {
+        // In a machine housings are bodies of their own.
+        let is_elsewhere = self.in_machine && key.starts_with("housing.");
+        if is_elsewhere || !OF_THE_SET.contains(&key.as_str()) {
             return;
         }
         // Whichever damps, its default says nothing of which does.

@@ -1,6 +1,7 @@
 //! The scenario that `brinell init` starts from: the NN3007 with the rectangle defect.
 
-use super::load::{read, write};
+use super::alone::write;
+use super::load::read;
 use super::problem::Problem;
 use super::provenance::by_key;
 use super::writer::Style;

@@ -1,9 +1,11 @@
 //! The names of all keys, for hints.
 
+use super::machine::keys::machine as machine_keys;
+use super::machine::tables::{OF_A_BEARING, SHARED};
 use super::provenance::SECTION;
 use super::schema::schema_of;
 use super::sections;
-use crate::scenario::{Scenario, Unset};
+use crate::scenario::{Machine, Scenario, Unset};
 use serde_json::Value as Json;
 use std::sync::LazyLock;
 
@@ -14,6 +16,27 @@ pub(crate) fn known_keys() -> &'static [(String, String)] {
         let mut keys = vec![(String::new(), SECTION.to_owned())];
         let listed = schema_of("", "", |walk| sections::scenario(walk, &mut Scenario::unset()));
         collect("", &listed, &mut keys);
+        keys
+    });
+    &KEYS
+}
+
+/// The same of a machine: what is around its bearings, and the keys of a bearing under `bearing`.
+pub(crate) fn keys_of_machine() -> &'static [(String, String)] {
+    static KEYS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
+        let mut keys = vec![(String::new(), SECTION.to_owned())];
+        let listed = schema_of("", "", |walk| machine_keys(walk, &mut Machine::unset()));
+        collect("", &listed, &mut keys);
+        for (section, name) in known_keys() {
+            let of = if section.is_empty() { name } else { section }.split('.').next().unwrap_or_default();
+            if OF_A_BEARING.contains(&of) {
+                let nested = if section.is_empty() { "bearing".into() } else { format!("bearing.{section}") };
+                keys.push((nested, name.clone()));
+            }
+            if !OF_A_BEARING.contains(&of) || SHARED.contains(&of) {
+                keys.push((section.clone(), name.clone()));
+            }
+        }
         keys
     });
     &KEYS
@@ -42,8 +65,8 @@ mod tests {
     /// A field without its line in the lists of keys would stay what nobody gave: NaN, or 0.
     #[test]
     fn prop_every_field_of_a_scenario_has_a_key() {
-        // Two keys, of which one is given.
-        let is_two = |field: &str| field == "damping";
+        // Two keys, of which one is given, and the sections of a machine.
+        let is_two = |field: &str| field == "damping" || field == "machine";
         for (section, fields) in [
             ("", Scenario::FIELDS),
             ("bearing", Bearing::FIELDS),

@@ -3,6 +3,7 @@
 //! `sections` lists every key once, in the vocabulary of `keys`; `reader`, `writer` and `schema` are walks over that list. `checks` holds
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
+mod alone;
 mod bearing_keys;
 mod cage_keys;
 mod checks;
@@ -17,6 +18,7 @@ mod in_unit;
 mod keys;
 mod known_keys;
 mod load;
+mod machine;
 mod problem;
 mod problems;
 mod profile_value;
@@ -40,12 +42,14 @@ mod value_type;
 mod waviness_value;
 mod writer;
 
+pub use alone::Loaded;
 pub use diagnostics::render_diagnostics;
 #[doc(hidden)]
 pub use diagnostics::{on_one_line, one_line};
 pub use differences::{Difference, LawsInForce};
 pub use example::{explained, template};
-pub use load::{Loaded, read, read_bytes};
+pub use load::{read, read_bytes};
+pub use machine::machine_schema;
 pub use problem::{Place, Problem, Severity};
 #[doc(hidden)]
 pub use problems::{MOST_OF_A_KIND, Problems, numberless};

@@ -12,8 +12,9 @@ use std::collections::{HashMap, HashSet};
 use serde_json::{Value as Json, json};
 
 use super::keys::Keys;
-use super::known_keys::known_keys;
-use super::provenance::{Provenance, SECTION};
+use super::known_keys::{keys_of_machine, known_keys};
+use super::provenance::Provenance;
+pub(super) use super::provenance::SECTION;
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
 use super::toml_text::quote;
@@ -107,7 +108,7 @@ fn exists(key: &str) -> Result<(), Misfit> {
     let words: Vec<&str> = key.split('.').filter(|word| word.parse::<usize>().is_err()).collect();
     let (name, section) = words.split_last().unwrap_or((&"", &[]));
     let section = section.join(".");
-    if known_keys().iter().any(|(s, n)| *s == section && n == name) {
+    if known_keys().iter().chain(keys_of_machine()).any(|(s, n)| *s == section && n == name) {
         return Ok(());
     }
     let near = did_you_mean(name, known_keys().iter().map(|(_, name)| name.as_str()));

@@ -108,11 +108,14 @@ pub(super) fn without_unit(name: &str) -> Option<&str> {
 
 /// The suffix of a key's name that is a unit, and the unit.
 const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
-    const SUFFIXES: [(&str, &str); 23] = [
+    const SUFFIXES: [(&str, &str); 26] = [
         ("_nms_per_rad", "N m s/rad"),
         ("_nm_per_rad", "N m/rad"),
         ("_mv_per_m_per_s2", "mV/(m/s^2)"),
         ("_kg_per_m3", "kg/m^3"),
+        ("_kg_m2", "kg m^2"),
+        ("_g_mm", "g mm"),
+        ("_mrad", "mrad"),
         ("_ns_per_m", "N s/m"),
         ("_m_per_s2", "m/s^2"),
         ("_n_per_m", "N/m"),

@@ -15,6 +15,47 @@ pub(crate) struct Style<'a> {
     pub(crate) template: bool,
 }
 
+/// Which of a file's sections are written.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Part {
+    /// All, of the file of one bearing.
+    All,
+    /// Of a machine's file: its name.
+    Name,
+    /// What is around its bearings.
+    Around,
+    /// Where bearing `k` is, from 0: begins its table.
+    Seat(usize),
+    /// The keys of a bearing, in the table that was begun.
+    Bearing,
+    /// What all bearings share.
+    OfAll,
+}
+
+impl Part {
+    /// Whether it has a key or section of the top of the file.
+    fn has(self, name: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Name => name == "name",
+            Self::Around => name != "bearing",
+            Self::Seat(_) => name == "bearing",
+            Self::Bearing => !["name", "operation", "housing", "sensor", "simulation"].contains(&name),
+            Self::OfAll => ["operation", "simulation"].contains(&name),
+        }
+    }
+
+    /// Whether it has a key of a section: in a machine loads are the shaft's.
+    fn has_key(self, section: &str, name: &str) -> bool {
+        self != Self::OfAll || section != "operation" || !["load_n", "load_on", "load_offset_mm"].contains(&name)
+    }
+
+    /// The header of what is called so in the file of one bearing.
+    fn header(self, path: &str) -> String {
+        if self == Self::Bearing { format!("bearing.{path}") } else { path.to_owned() }
+    }
+}
+
 struct Line {
     code: String,
     comment: String,
@@ -22,6 +63,9 @@ struct Line {
 
 pub(crate) struct Writer<'a> {
     style: Style<'a>,
+    part: Part,
+    /// Where bearings are left out of what is around them.
+    bearings_at: usize,
     out: String,
     lines: Vec<Line>,
     path: Vec<String>,
@@ -33,12 +77,41 @@ pub(crate) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     pub(crate) fn new(style: Style<'a>) -> Writer<'a> {
-        Writer { style, out: String::new(), lines: Vec::new(), path: Vec::new(), inline: None, comments: Vec::new() }
+        Self::of_part(style, Part::All)
+    }
+
+    pub(crate) fn of_part(style: Style<'a>, part: Part) -> Writer<'a> {
+        Writer {
+            part,
+            bearings_at: 0,
+            style,
+            out: String::new(),
+            lines: Vec::new(),
+            path: Vec::new(),
+            inline: None,
+            comments: Vec::new(),
+        }
     }
 
     pub(crate) fn finish(mut self) -> String {
         self.flush();
         self.out
+    }
+
+    /// What comes before the bearings, and what after them.
+    pub(crate) fn finish_at_bearings(mut self) -> [String; 2] {
+        self.flush();
+        let after = self.out.split_off(self.bearings_at);
+        [self.out, after]
+    }
+
+    /// Whether what the walk names is of another part.
+    fn skips(&self, name: &str) -> bool {
+        match &self.path[..] {
+            [] => !self.part.has(name),
+            [section] => !self.part.has_key(section, name),
+            _ => false,
+        }
     }
 
     fn path_of(&self, name: &str) -> String {
@@ -74,6 +147,9 @@ impl<'a> Writer<'a> {
     }
 
     fn add(&mut self, spec: &Spec, range: Words, value: &str, live: bool) {
+        if self.skips(spec.name) {
+            return;
+        }
         let code = format!("{} = {value}", spec.name);
         let remark = self.remark(spec, range);
         if let Some(inline) = &mut self.inline {
@@ -185,7 +261,12 @@ impl Keys for Writer<'_> {
     fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
         self.flush();
         let before = self.out.len();
-        self.header(format!("[{}]", spec.name), spec.doc);
+        if self.skips(spec.name) {
+            return;
+        }
+        if (self.part, spec.name) != (Part::Bearing, "bearing") {
+            self.header(format!("[{}]", self.part.header(spec.name)), spec.doc);
+        }
         let bare = self.out.len();
         self.path.push(spec.name.to_string());
         keys(self);
@@ -200,8 +281,14 @@ impl Keys for Writer<'_> {
         if items.is_empty() && self.style.template && !self.path.is_empty() {
             self.comment(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
         }
-        for (i, item) in items.iter_mut().enumerate() {
-            self.header(format!("[[{}]]", self.path_of(spec.name)), spec.doc);
+        if self.skips(spec.name) {
+            self.flush();
+            self.bearings_at = self.out.len();
+            return;
+        }
+        let first = if let Part::Seat(k) = self.part { k } else { 0 };
+        for (i, item) in items.iter_mut().enumerate().map(|(i, item)| (first + i, item)) {
+            self.header(format!("[[{}]]", self.part.header(&self.path_of(spec.name))), spec.doc);
             self.path.push(spec.name.to_string());
             self.path.push(i.to_string());
             keys(self, item);

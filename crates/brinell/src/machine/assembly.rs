@@ -1,6 +1,7 @@
 //! What a machine is made of, and where each coordinate is.
 
 use super::structure::{Row, Seat, Structure};
+use crate::analysis::STANDARD_GRAVITY;
 use crate::lanes::WIDTH;
 use crate::model::Model;
 use crate::scenario::Start;
@@ -14,6 +15,10 @@ pub struct Mount {
     pub structure: usize,
     /// Where on it.
     pub seat: Seat,
+    /// By how much the ring is off that place, m.
+    pub shift: [f64; 2],
+    /// By how much it is tilted against it, rad.
+    pub tilt: [f64; 2],
 }
 
 /// A ring among a bearing's positions.
@@ -135,6 +140,11 @@ impl Machine {
         self.firsts.first().copied().unwrap_or(self.first_point)..self.first_point
     }
 
+    /// Weight of the shaft and of all that is on it, N; 0 without a shaft.
+    pub fn shaft_weight(&self) -> f64 {
+        self.structures.first().map_or(0.0, |shaft| STANDARD_GRAVITY * shaft.momentum[0].square())
+    }
+
     /// Whether its outer ring is mounted rigidly, by forces that nobody knows.
     pub fn is_held(&self) -> bool {
         self.bearings.iter().any(|seated| seated.model.outer_ring_is_fixed())
@@ -199,7 +209,7 @@ impl Machine {
         for seated in &self.bearings {
             let rings = Seated::rings(&seated.model);
             for (mount, Ring { shift, tilt, .. }) in seated.mounts.iter().zip(rings) {
-                let Some(Mount { structure, seat }) = mount else { continue };
+                let Some(Mount { structure, seat, .. }) = mount else { continue };
                 let [x, y] = [0, 1].map(|k: usize| seat.shift[k].of(self.of_structure(*structure, all)));
                 all[seated.first + shift..][..2].copy_from_slice(&[x, y]);
                 if let Some((tilt, _)) = tilt {
@@ -210,6 +220,21 @@ impl Machine {
         }
         for (k, point) in self.points.iter().enumerate() {
             all[self.first_point + k] = point.row.of(self.of_structure(point.structure, all));
+        }
+    }
+
+    /// Has the positions of what follows a structure follow it, as its seats are made.
+    pub(super) fn place(&self, positions: &mut [f64]) {
+        self.follow(positions);
+        for seated in &self.bearings {
+            let rings = Seated::rings(&seated.model);
+            for (mount, Ring { shift, tilt, .. }) in seated.mounts.iter().zip(rings) {
+                let Some(mount) = mount else { continue };
+                let off = |at: usize, by: [f64; 2]| (0..2).map(move |k| (seated.first + at + k, by[k]));
+                let shifts = off(shift, mount.shift);
+                let tilts = tilt.into_iter().flat_map(|(at, _)| off(at, mount.tilt));
+                shifts.chain(tilts).for_each(|(at, by)| positions[at] += by);
+            }
         }
     }
 
@@ -244,7 +269,7 @@ impl Machine {
             let coordinates = &mut q[first..][..structure.size()];
             structure.momentum.iter().for_each(|along| along.push(start::INITIAL_OFFSET, coordinates));
         }
-        self.follow(q);
+        self.place(q);
         self.follow(v);
         y
     }

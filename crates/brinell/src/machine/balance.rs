@@ -31,8 +31,8 @@ const DAMPING: f64 = 1e4;
 
 /// A coordinate of a bearing's rings: what it is of the coordinates of the search.
 enum Place {
-    /// On a structure, from that coordinate on, times a lever.
-    Seated(usize, Row, f64),
+    /// On a structure, from that coordinate on, times a lever; and how far off that.
+    Seated { from: usize, row: Row, lever: f64, off: f64 },
     /// Its own.
     Own(usize),
 }
@@ -40,7 +40,7 @@ enum Place {
 impl Place {
     fn of(&self, z: &[f64]) -> f64 {
         match self {
-            Self::Seated(from, row, lever) => lever * row.of(&z[*from..]),
+            Self::Seated { from, row, lever, off } => lever * (row.of(&z[*from..]) + off),
             Self::Own(k) => z[*k],
         }
     }
@@ -48,7 +48,7 @@ impl Place {
     /// What a force on it does to the coordinates.
     fn push(&self, force: f64, onto: &mut [f64]) {
         match self {
-            Self::Seated(from, row, lever) => row.push(lever * force, &mut onto[*from..]),
+            Self::Seated { from, row, lever, .. } => row.push(lever * force, &mut onto[*from..]),
             Self::Own(k) => onto[*k] += force,
         }
     }
@@ -91,7 +91,7 @@ impl Machine {
         let mut positions = self.off_balance();
         positions.truncate(self.dof());
         positions[coordinates.clone()].copy_from_slice(&found.x[..coordinates.len()]);
-        self.follow(&mut positions);
+        self.place(&mut positions);
         let mut bearings = Vec::new();
         for (k, seated) in self.bearings.iter().enumerate() {
             let (Pressed { state, r, beta }, l) = (press(k, &found.x), &seated.model.layout);
@@ -109,7 +109,9 @@ impl Machine {
                 }
             }
             let slope = |side: usize, axis: usize| match &seated.mounts[side] {
-                Some(Mount { structure, seat }) => seat.tilt[axis].of(self.of_structure(*structure, &positions)),
+                Some(Mount { structure, seat, tilt, .. }) => {
+                    seat.tilt[axis].of(self.of_structure(*structure, &positions)) + tilt[axis]
+                }
                 None if l.tilts => rings[k][side * of_ring + 2 + axis].of(&found.x) / arm,
                 None => 0.0,
             };
@@ -129,10 +131,13 @@ impl Machine {
         let of = |mount: &Option<Mount>| -> Vec<Place> {
             let count = if seated.model.layout.tilts { 4 } else { 2 };
             match mount {
-                Some(Mount { structure, seat }) => {
-                    let levers = seat.shift.iter().map(|row| (row, 1.0)).chain(seat.tilt.iter().map(|row| (row, arm)));
+                Some(Mount { structure, seat, shift, tilt }) => {
+                    let shifts = seat.shift.iter().zip(shift).map(|(row, off)| (row, 1.0, *off));
+                    let levers = shifts.chain(seat.tilt.iter().zip(tilt).map(|(row, off)| (row, arm, *off)));
                     let from = self.firsts[*structure] - first;
-                    levers.take(count).map(|(row, lever)| Place::Seated(from, row.clone(), lever)).collect()
+                    let place =
+                        |(row, lever, off): (&Row, f64, f64)| Place::Seated { from, row: row.clone(), lever, off };
+                    levers.take(count).map(place).collect()
                 }
                 None => {
                     *next += count;

@@ -101,7 +101,7 @@ impl Machine {
             a[seated.range()].copy_from_slice(&part.a);
             power += part.ws.power;
             for (side, mount) in seated.mounts.iter().enumerate() {
-                let Some(Mount { structure, seat }) = mount else { continue };
+                let Some(Mount { structure, seat, .. }) = mount else { continue };
                 let f = &mut a[self.firsts[*structure]..];
                 let forces = forces_on_ring(&seated.model, side, &part.a);
                 (0..2).for_each(|k| seat.shift[k].push(forces[0][k], f));

@@ -23,6 +23,8 @@ pub struct Shaft {
     pub unbalances: Vec<(f64, f64, f64)>,
     /// Places of which the displacements along X and Y are channels: name and Z, m.
     pub looked_at: Vec<(String, f64)>,
+    /// Accelerometers: name; Z, m; direction, rad from X.
+    pub sensors: Vec<(String, f64, f64)>,
     /// Modes up to here are kept, Hz.
     pub band: f64,
     /// Damping ratio of each mode.
@@ -46,6 +48,7 @@ impl Shaft {
             loads: Vec::new(),
             unbalances: Vec::new(),
             looked_at: Vec::new(),
+            sensors: Vec::new(),
             band: 2000.0,
             damping_ratio: 0.005,
             is_rigid: false,
@@ -67,6 +70,17 @@ pub struct OnShaft {
     pub at: f64,
     /// In which housing its outer ring sits, from 0; else that is on its own support.
     pub housing: Option<usize>,
+    /// By how much its seat there is off the line through all of them, m.
+    pub offset: [f64; 2],
+    /// By how much it is tilted, rad: slopes of its axis in (X, Z) and (Y, Z).
+    pub misalignment: [f64; 2],
+}
+
+impl OnShaft {
+    /// In line with the others.
+    pub fn new(model: Model, at: f64, housing: Option<usize>) -> Self {
+        Self { model, at, housing, offset: [0.0; 2], misalignment: [0.0; 2] }
+    }
 }
 
 /// A rigid housing, held at the centre of mass of it and of the outer rings in it.
@@ -157,8 +171,12 @@ impl Plan {
         for (name, z) in &shaft.looked_at {
             let [x, y] = seat(*z).shift;
             for (axis, row) in [("x", x), ("y", y)] {
-                points.push(Point { name: format!("shaft.{axis}_{name}"), is_sensor: false, structure: 0, row });
+                points.push(Point { name: format!("shaft.{axis}{name}"), is_sensor: false, structure: 0, row });
             }
+        }
+        for (name, z, direction) in &shaft.sensors {
+            let row = seat(*z).along(*direction);
+            points.push(Point { name: format!("shaft.{name}"), is_sensor: true, structure: 0, row });
         }
         let mut structures = vec![of_shaft];
         let mut bodies = Vec::new();
@@ -172,8 +190,13 @@ impl Plan {
             bodies.push(body);
         }
         let place = |bearing: OnShaft| {
-            let inner = Mount { structure: 0, seat: seat(bearing.at) };
-            let outer = bearing.housing.map(|k| Mount { structure: k + 1, seat: bodies[k].seat(bearing.at) });
+            let inner = Mount { structure: 0, seat: seat(bearing.at), shift: [0.0; 2], tilt: [0.0; 2] };
+            let outer = bearing.housing.map(|k| Mount {
+                structure: k + 1,
+                seat: bodies[k].seat(bearing.at),
+                shift: bearing.offset,
+                tilt: bearing.misalignment,
+            });
             (bearing.model, [Some(inner), outer])
         };
         Ok(Machine::new(bearings.into_iter().map(place).collect(), structures, points))
@@ -215,6 +238,7 @@ fn places(shaft: &Shaft, bearings: &[OnShaft]) -> Vec<f64> {
     let discs = shaft.discs.iter().map(|disc| disc.at).chain(shaft.couplings.iter().map(|spring| spring.at));
     let pulls = shaft.loads.iter().map(|of| of.0).chain(shaft.unbalances.iter().map(|of| of.0));
     let others = shaft.looked_at.iter().map(|of| of.1).chain(bearings.iter().map(|bearing| bearing.at));
+    let others = others.chain(shaft.sensors.iter().map(|of| of.1));
     discs.chain(pulls).chain(others).collect()
 }
 

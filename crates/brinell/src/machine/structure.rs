@@ -19,6 +19,12 @@ impl Row {
         Self { from: plane * port.0.len(), values: port.0.as_slice().to_vec() }
     }
 
+    /// The share of a coordinate.
+    pub(super) fn share(&self, coordinate: usize) -> f64 {
+        let at = coordinate.checked_sub(self.from);
+        at.and_then(|at| self.values.get(at)).copied().unwrap_or(0.0)
+    }
+
     /// Of one coordinate alone.
     fn at(coordinate: usize, value: f64) -> Self {
         Self { from: coordinate, values: vec![value] }
@@ -123,6 +129,20 @@ impl Structure {
             over([shift.damping, tilt.damping]),
             [0, 1].map(|k| Row::at(k, mass.sqrt())),
         )
+    }
+
+    /// The `k`-th of the coordinates that move in (X, Z); a shaft's come first, those of a rigid body alternate with those in (Y, Z).
+    pub(super) fn in_first_plane(&self, k: usize) -> usize {
+        if self.is_shaft() { k } else { 2 * k }
+    }
+
+    fn is_shaft(&self) -> bool {
+        !self.gyroscopic.is_empty()
+    }
+
+    /// G, row by row, at 1 rad/s.
+    pub(super) fn gyroscopic_rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.gyroscopic.chunks_exact((self.size() / 2).max(1))
     }
 
     /// Coordinates.

@@ -78,6 +78,7 @@ impl Model {
             defects: _, // defects(s), add_tables
             sensor: _,  // Simulation
             simulation,
+            machine: _,
         } = s;
         let scenario::Simulation {
             laws: _, // the reader's defaults

@@ -95,8 +95,9 @@ impl DefectLine {
 pub struct Findings {
     /// Statistics, spectra, load zone and slip begin here, s.
     pub from: f64,
-    /// 0 or 1: the axis of the sensor acceleration that spectra and waveform show, the one nearer the load.
-    pub axis: usize,
+    /// The channel that spectra and waveform show: the sensor acceleration along the axis nearer the load; of a machine that of the
+    /// accelerometer nearest to the bearing that is observed.
+    pub sensor: String,
     /// By channel.
     pub channels: Vec<ChannelStatistics>,
     /// Forces around the bearing.
@@ -126,21 +127,15 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// The channel that spectra and waveform show.
-    pub fn sensor_name(&self) -> &'static str {
-        ["sensor_ax", "sensor_ay"][self.axis]
-    }
-
-    /// Its statistics: the anti-aliased sensor acceleration along `axis`.
-    pub fn sensor(&self) -> Option<&ChannelStatistics> {
-        let name = self.sensor_name();
+    /// Statistics of the channel `sensor`.
+    pub fn of_sensor(&self) -> Option<&ChannelStatistics> {
         let mut channels = self.channels.iter();
-        channels.find(|c| c.name == name && c.kind == Kind::AntiAliased)
+        channels.find(|c| c.name == self.sensor && c.kind == Kind::AntiAliased)
     }
 
     /// Its RMS, m/s^2.
     pub fn rms(&self) -> Option<Estimate> {
-        self.sensor()?.blocks.estimate(Indicator::Rms)
+        self.of_sensor()?.blocks.estimate(Indicator::Rms)
     }
 
     /// That over the same bearing's without its damage.
@@ -277,7 +272,7 @@ impl Watch {
             places: Places::default(),
             found: Findings {
                 from: 0.0,
-                axis: scenario.operation.axis_of_load(),
+                sensor: simulation.shown().name.clone(),
                 channels,
                 load_zone: LoadZone::new(&model.layout),
                 slip: Slip::new(&model.layout),
@@ -329,7 +324,7 @@ impl Watch {
 
     /// One complete row.
     pub fn row(&mut self, simulation: &Simulation, index: u64, row: &[f64], filtered: &[f64]) {
-        let sensor = filtered[self.found.axis];
+        let sensor = filtered[simulation.shown_index()];
         self.found.waveform.push(sensor);
         self.spectrogram.push(sensor);
         let t = index as f64 / self.sample_rate;
@@ -353,11 +348,12 @@ impl Watch {
     /// What came together.
     pub fn finish(mut self, simulation: &Simulation) -> Findings {
         // The sensor channels were counted twice where they are recorded.
-        let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
+        let recorded = simulation.channels().iter().filter(|c| c.sensor_axis().is_some());
+        let names: Vec<&str> = recorded.map(|c| c.name.as_str()).collect();
         let mut index = 0;
         self.found.channels.retain(|c| {
             index += 1;
-            index <= self.recorded || !names.contains(&c.name.as_str()) || !c.name.starts_with("sensor_")
+            index <= self.recorded || !names.contains(&c.name.as_str())
         });
         let drifts = self.drifts();
         let spectra = self.spectra.finish();
@@ -389,8 +385,7 @@ impl Watch {
         }
         let rows = self.found.slip.rows.iter().enumerate();
         let slips = rows.filter_map(|(row, slip)| Some(Drift::CageSlip(row, slip.cage_drift()?)));
-        let sensor = format!("sensor_a{}", ["x", "y"][self.found.axis]);
-        let level = self.found.channels.iter().find(|c| c.name == sensor);
+        let level = self.found.channels.iter().find(|c| c.name == self.found.sensor);
         let level = level.and_then(|c| {
             let ratio = (0.5 * c.blocks.level_drift()?).exp() - 1.0;
             (ratio.abs() > LEAST_LEVEL_DRIFT).then_some(Drift::Level(c.name.clone(), ratio))

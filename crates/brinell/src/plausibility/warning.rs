@@ -3,6 +3,9 @@
 use crate::document::{Problem, unit_of_key};
 use crate::signal;
 
+/// Share of the load beyond which a weight that is left out is worth a warning.
+pub(super) const WEIGHT_SHARE: f64 = 0.1;
+
 pub(super) fn warning(key: &str, value: String, message: String, allowed: impl Into<String>) -> Problem {
     Problem::warning(key, message).value(value).allowed(allowed).unit(unit_of_key(key))
 }

@@ -20,9 +20,11 @@ macro_rules! choices {
             $(#[doc = $meaning] $(#[doc = ""] #[$more])* $variant),+
         }
 
-        words! { $type: $($variant = $word, $meaning;)+ }
+        $crate::scenario::words! { $type: $($variant = $word, $meaning;)+ }
     )+};
 }
+
+pub(super) use choices;
 
 /// A closed set of words.
 pub trait Choice: Copy + PartialEq + 'static {

@@ -6,6 +6,7 @@
 mod choices;
 mod damage;
 mod laws;
+mod machine;
 mod sensor;
 mod table;
 mod unset;
@@ -13,6 +14,7 @@ mod unset;
 pub(crate) use choices::words;
 pub use choices::*;
 pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
+pub use machine::{Accelerometer, Coupling, Disc, Machine, RigidHousing, Seat, SensorOn, Shaft, ShaftLoad, Unbalance};
 pub use sensor::{PathMode, Range, Sensor};
 pub(crate) use table::OfList;
 pub use table::{TableData, TableFault, TableValues};
@@ -47,6 +49,8 @@ sections! {
         pub sensor: Sensor,
         /// What to compute and to record.
         pub simulation: Simulation,
+        /// The machine that the bearing is in, if it is not on supports of its own.
+        pub machine: Option<Box<Machine>>,
     }
 }
 

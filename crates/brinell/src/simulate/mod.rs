@@ -15,9 +15,10 @@ mod signals;
 mod switches;
 
 use crate::channel::{self, Channel, Frame};
+use crate::document::Problem;
 use crate::error::{Error, refuse};
-use crate::machine::Machine;
-use crate::model::{Custom, Energy, Model, Power};
+use crate::machine::{self, Machine};
+use crate::model::{Custom, Energy, Model, ModelError, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::decimate::FACTOR;
@@ -203,6 +204,21 @@ pub struct Recording {
     pub settled_s: f64,
 }
 
+impl Recording {
+    /// As a scenario says.
+    pub fn of(scenario: &Scenario) -> Self {
+        let s = &scenario.simulation;
+        Self {
+            duration_s: s.duration_s,
+            sample_rate_hz: s.sample_rate_hz,
+            record: s.record.clone(),
+            accuracy: s.accuracy,
+            most_steps: s.most_steps,
+            settled_s: scenario.settled_s(),
+        }
+    }
+}
+
 /// Samples of a duration (s), both its ends included.
 fn samples_in(duration: f64, rate: f64) -> u64 {
     (duration * rate * (1.0 + 1e-12)).floor() as u64 + 1
@@ -226,6 +242,18 @@ pub struct Simulation {
     accuracy: Accuracy,
     /// Steps that a run may take.
     most_steps: f64,
+    /// Bearing whose frames are observed, from 0.
+    lead: usize,
+    /// Which of the filtered accelerations findings are of.
+    shown: usize,
+}
+
+/// What `make` makes of each bearing of a scenario.
+fn each<T>(scenario: &Scenario, make: impl Fn(&Scenario) -> Result<T, ModelError>) -> Result<Vec<T>, ModelError> {
+    match scenario.machine {
+        Some(_) => machine::bearings(scenario).iter().map(make).collect(),
+        None => Ok(vec![make(scenario)?]),
+    }
 }
 
 impl Simulation {
@@ -245,7 +273,11 @@ impl Simulation {
     /// centred geometry.
     pub fn with_custom(scenario: &Scenario, custom: Custom) -> Result<Self, Error> {
         refuse(scenario.problems())?;
-        Self::of(scenario, Model::with_custom(scenario, custom)?)
+        if scenario.machine.is_some() {
+            let message = "laws and forces of one's own are of one bearing on its supports";
+            return Err(vec![Problem::error("shaft", message)].into());
+        }
+        Self::of(scenario, vec![Model::with_custom(scenario, custom)?])
     }
 
     /// The same of a scenario as it was read, which has been checked.
@@ -254,7 +286,7 @@ impl Simulation {
     /// Where it makes no model or has no equilibrium to start from.
     #[doc(hidden)]
     pub fn unchecked(scenario: &Scenario) -> Result<Self, Error> {
-        Self::of(scenario, Model::new(scenario)?)
+        Self::of(scenario, each(scenario, Model::new)?)
     }
 
     /// The same where the tables of damage are at hand, by [`Model::at_hand`].
@@ -263,7 +295,8 @@ impl Simulation {
     /// As [`Self::unchecked`].
     #[doc(hidden)]
     pub fn at_hand(scenario: &Scenario) -> Result<Option<Self>, Error> {
-        Model::at_hand(scenario)?.map(|model| Self::of(scenario, model)).transpose()
+        let models: Option<Vec<_>> = each(scenario, Model::at_hand)?.into_iter().collect();
+        models.map(|models| Self::of(scenario, models)).transpose()
     }
 
     /// The same to plan with, by [`Model::planned`]: not to be run.
@@ -272,7 +305,7 @@ impl Simulation {
     /// As [`Self::unchecked`].
     #[doc(hidden)]
     pub fn planned(scenario: &Scenario) -> Result<Self, Error> {
-        Self::of(scenario, Model::planned(scenario)?)
+        Self::of(scenario, each(scenario, Model::planned)?)
     }
 
     /// Of a machine, recorded as said.
@@ -284,7 +317,8 @@ impl Simulation {
         let sensors = machine.sensors();
         let of_bearings = (machine.bearings.iter().enumerate())
             .flat_map(|(k, seated)| channel::filterable(&seated.model).into_iter().map(move |c| c.of_bearing(k)))
-            .filter(|c| channels.iter().any(|r| r.name == c.name));
+            // Without a sensor the outer rings are what is looked at.
+            .filter(|c| channels.iter().any(|r| r.name == c.name) || sensors.is_empty() && c.name.contains(".outer_a"));
         let filtered: Vec<_> = sensors.iter().map(|(_, channel)| channel.clone()).chain(of_bearings).collect();
         let entry = |c: &Channel| Some(machine.bearing(c.bearing) + c.acceleration_entry()?);
         let entries = sensors.iter().map(|(entry, _)| Some(*entry)).chain(filtered[sensors.len()..].iter().map(entry));
@@ -301,11 +335,20 @@ impl Simulation {
             filtered,
             idle_patterns,
             machine,
+            lead: 0,
+            shown: 0,
         })
     }
 
-    fn of(scenario: &Scenario, model: Model) -> Result<Self, Error> {
-        let machine = Machine::of_one(model);
+    /// Of the models of its bearings.
+    fn of(scenario: &Scenario, mut models: Vec<Model>) -> Result<Self, Error> {
+        if let Some(of) = &scenario.machine {
+            let made = Self::of_machine(machine::machine(of, models)?, &Recording::of(scenario))?;
+            let shown = scenario.shown_channel();
+            let place = made.filtered.iter().position(|channel| channel.name == shown);
+            return Ok(Self { lead: of.lead, shown: place.unwrap_or(0), ..made });
+        }
+        let machine = Machine::of_one(models.remove(0));
         let (initial, model) = (machine.initial()?, &machine.bearings[0].model);
         let (channels, idle_patterns) = channel::select(model, &scenario.sensor, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;
@@ -330,12 +373,29 @@ impl Simulation {
             accuracy: scenario.simulation.accuracy,
             most_steps: scenario.simulation.most_steps,
             machine,
+            lead: 0,
+            shown: scenario.operation.axis_of_load(),
         })
     }
 
-    /// The model; of a machine that of its first bearing.
+    /// The model; of a machine that of the bearing whose frames are observed.
     pub fn model(&self) -> &Model {
-        &self.machine.bearings[0].model
+        &self.machine.bearings[self.lead].model
+    }
+
+    /// The machine; of one bearing alone the smallest.
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// The channel of [`Self::filtered`] that findings are of.
+    pub fn shown(&self) -> &Channel {
+        &self.filtered[self.shown]
+    }
+
+    /// Which of them it is.
+    pub(crate) fn shown_index(&self) -> usize {
+        self.shown
     }
 
     /// The recorded channels, in the order of rows; time is not among them.

@@ -275,7 +275,8 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         }
         // Behind the last sample only the filter's lag is left.
         if t * self.simulation.sample_rate <= self.last.saturating_sub(1) as f64 {
-            observer.step(&machine.frame(0, (t, y, self.stepper.accelerations()), &self.parts));
+            let at = (t, y, self.stepper.accelerations());
+            observer.step(&machine.frame(self.simulation.lead, at, &self.parts));
         }
     }
 
@@ -303,7 +304,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                 *worst = worst.max(now);
             }
             if index < self.last {
-                observer.sample(index, &machine.frame(0, at, &self.parts));
+                observer.sample(index, &machine.frame(simulation.lead, at, &self.parts));
             }
         }
         if self.next == 0 {

@@ -7,6 +7,7 @@ mod defaults;
 mod json;
 mod laws;
 mod limits;
+mod machine;
 mod quantities;
 mod recorded;
 mod robust;

@@ -277,6 +277,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
     (text, 5.5..40.0f64, 12..=15usize, 2..=4usize, numbers, speed, words, defects()).prop_map(
         move |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
             name,
+            machine: None,
             bearing: Bearing {
                 preset: (words.1 == 1).then(|| "NN3007".into()),
                 element: if balls(words) { Element::Ball } else { Element::Roller },

@@ -53,7 +53,7 @@ impl<'a> Finder<'a> {
     }
 
     /// A problem with its unit, value and places, and those of the other keys that take part.
-    fn complete(&self, mut problem: Problem, also: &[&str]) -> Problem {
+    pub(in super::super) fn complete(&self, mut problem: Problem, also: &[&str]) -> Problem {
         let unit = unit_of(problem.key.rsplit('.').next().unwrap_or_default());
         problem = problem.unit(unit);
         problem.value = self.value(&problem.key);

@@ -225,13 +225,13 @@ impl Checker<'_> {
 
     fn record(&mut self) {
         const RECORD: &str = "simulation.record";
-        let fits = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '*';
+        let fits = |c: char| c.is_ascii_alphanumeric() || "_*.".contains(c);
         let bad = |name: &&String| name.is_empty() || !name.chars().all(fits);
         if let Some(name) = self.s.simulation.record.iter().find(bad) {
             self.error(
                 RECORD,
                 format!("no channel can match {}", crate::document::toml_text::quote(name)),
-                "names of letters, digits, _ and *".into(),
+                "names of letters, digits, _, * and, in a machine, dots".into(),
                 &[],
             );
         }

@@ -1,0 +1,111 @@
+//! Of `brinell check`: a machine.
+
+use super::bearing::{assumptions, bearing, frequencies, static_balance};
+use super::lamina;
+use crate::args::CheckArgs;
+use crate::failure::{Failure, print_problems};
+use crate::say::{self, one_line, plain_number, say, short, significant};
+use crate::sweep::duration;
+use brinell::analysis::STANDARD_GRAVITY;
+use brinell::derived::{DerivedBearing, DerivedMachine, machine_to_json};
+use brinell::document::Loaded;
+use brinell::machine::{Mode, Whirl};
+use brinell::plausibility::Beforehand;
+use brinell::scenario::Machine;
+use brinell::simulate::Simulation;
+use brinell_study::runner::Forecast;
+use std::f64::consts::TAU;
+use std::process::ExitCode;
+
+/// Natural frequencies that are printed at most, and critical speeds.
+const MOST: usize = 8;
+
+pub(super) fn check(
+    args: &CheckArgs,
+    loaded: &Loaded,
+    (simulation, of): (&Simulation, &Machine),
+    cost: Option<Forecast>,
+) -> Result<ExitCode, Failure> {
+    let s = &loaded.scenario;
+    let derived = DerivedMachine::new(s, simulation)
+        .map_err(|error| Failure::Usage(format!("the machine has no static balance: {error}")))?;
+    let warnings = Beforehand::of_run(s, simulation).warnings;
+    if args.json {
+        let mut json = machine_to_json(s, &derived);
+        json["warnings"] = warnings.iter().map(ToString::to_string).collect();
+        json["steps"] = cost.map(|cost| cost.steps.round()).into();
+        say::json(&json);
+        return Ok(ExitCode::SUCCESS);
+    }
+    print_problems("", "", &warnings);
+    say!("{}: the machine is valid", one_line(&s.name));
+    say!("");
+    shaft(of, &derived);
+    say!("");
+    for (k, one) in derived.bearings.iter().enumerate() {
+        say!("Bearing {} at Z = {} mm", k + 1, plain_number(of.seats[k].at_mm));
+        share(one);
+        bearing(&one.scenario);
+        frequencies(&one.scenario, &one.derived);
+        match &one.derived.statics {
+            Ok(zone) => {
+                static_balance(&one.scenario, &one.model, zone, false);
+                lamina::print(&one.scenario, one.derived.top_speed)?;
+            }
+            Err(error) => say!("Static balance: {error}"),
+        }
+        say!("");
+    }
+    say!(
+        "Recording {} channels, {} samples each at {} Hz",
+        simulation.channels().len(),
+        simulation.samples(),
+        plain_number(simulation.sample_rate())
+    );
+    if let Some(cost) = cost {
+        say!("Cost      about {} steps, {} on this machine", short(cost.steps, 2), duration(cost.seconds));
+    }
+    say!("");
+    assumptions(loaded, args.assumptions);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What the bearing has of the load, and how it stands.
+fn share(one: &DerivedBearing) {
+    let [x, y] = one.carried.force;
+    let size = x.hypot(y);
+    say!("  carries                 ({}, {}) N", significant(x, size, 4), significant(y, size, 4));
+    let [a, b] = one.carried.misalignment.map(|slope| 1e3 * slope);
+    say!("  misaligned by           ({}, {}) mrad", significant(a, a.hypot(b), 3), significant(b, a.hypot(b), 3));
+    say!("  stiffness along load    {} N/m", short(one.stiffness_along_load(), 3));
+}
+
+fn shaft(of: &Machine, derived: &DerivedMachine) {
+    let stations = &of.shaft.stations_mm;
+    let length = stations.last().zip(stations.first()).map_or(0.0, |(last, first)| last - first);
+    say!(
+        "Shaft     {} mm, with what is on it {} kg; {} bearings",
+        plain_number(length),
+        short(derived.weight / STANDARD_GRAVITY, 4),
+        of.bearings()
+    );
+    say!(
+        "Natural frequencies at {} r/min, on the bearings' stiffness at their load",
+        short(60.0 * derived.top_speed / TAU, 5)
+    );
+    for Mode { frequency, damping_ratio, whirl } in derived.modes(derived.top_speed).into_iter().take(MOST) {
+        say!("  {:>10} Hz   damping ratio {:<8} {}", short(frequency, 5), short(damping_ratio, 2), way(whirl));
+    }
+    let critical = derived.critical_speeds();
+    say!("Critical speeds{}", if critical.is_empty() { ": none" } else { "" });
+    for (speed, whirl) in critical.into_iter().take(MOST) {
+        say!("  {:>10} r/min  {}", short(60.0 * speed / TAU, 5), way(whirl));
+    }
+}
+
+fn way(whirl: Whirl) -> &'static str {
+    match whirl {
+        Whirl::Forward => "forward",
+        Whirl::Backward => "backward",
+    }
+}

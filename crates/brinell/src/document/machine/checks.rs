@@ -1,0 +1,144 @@
+//! What no single key of a machine can say: whether everything is on the shaft, and something holds it.
+
+use super::super::checks::Finder;
+use super::super::problem::{Place, Problem, Severity};
+use super::super::problems::Problems;
+use super::super::source::{Table, Value};
+use super::super::toml_text::float;
+use super::tables::{OF_THE_SHAFT, at, given};
+use crate::scenario::{Machine, ModelKind, Scenario, SensorOn};
+
+/// Adds what is wrong to the problems of the reader.
+pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Problems<'a>) -> Problems<'a> {
+    let mut add = |severity: Severity, key: String, message: String, allowed: String| {
+        let problem = Problem::new(severity, key, message).allowed(allowed);
+        problems.add(finder.complete(problem, &[]), None);
+    };
+    let mut wrong = |key: String, message: String, allowed: String| add(Severity::Error, key, message, allowed);
+    let stations = &m.shaft.stations_mm;
+    if stations.is_empty() {
+        // That is reported.
+        return problems;
+    }
+    let key = |name: &str| format!("shaft.{name}");
+    if stations.len() < 2 || stations.windows(2).any(|pair| pair[1] <= pair[0]) {
+        wrong(
+            key("stations_mm"),
+            "stations must rise along the shaft".into(),
+            "two at least, each above the one before".into(),
+        );
+        return problems;
+    }
+    let parts = stations.len() - 1;
+    let diameters = &m.shaft.diameters_mm;
+    if !diameters.is_empty() && diameters.len() != parts {
+        let message = format!("{} diameters for {parts} part(s) between {} stations", diameters.len(), stations.len());
+        wrong(key("diameters_mm"), message, format!("{parts} of them: from each station to the next"));
+    }
+    if let Some(bores) = &m.shaft.bores_mm {
+        if bores.len() != parts {
+            let message = format!("{} bores for {parts} part(s)", bores.len());
+            wrong(key("bores_mm"), message, format!("{parts} of them, 0 where it is solid"));
+        } else if let Some(k) = bores.iter().zip(diameters).position(|(bore, outer)| bore >= outer) {
+            let message = format!("the bore of part {} leaves no wall", k + 1);
+            wrong(key("bores_mm"), message, format!("below its diameter of {} mm", float(diameters[k])));
+        }
+    }
+    let (first, last) = (stations[0], stations[parts]);
+    let on_shaft = |at: f64| at.is_nan() || (first..=last).contains(&at);
+    let named = |list: &str, k: usize| format!("{list}.{k}.at_mm");
+    let shaft = &m.shaft;
+    let places = (shaft.disc.iter().enumerate().map(|(k, of)| (named("shaft.disc", k), of.at_mm)))
+        .chain(shaft.unbalance.iter().enumerate().map(|(k, of)| (named("shaft.unbalance", k), of.at_mm)))
+        .chain(shaft.load.iter().enumerate().map(|(k, of)| (named("shaft.load", k), of.at_mm)))
+        .chain(shaft.coupling.iter().enumerate().map(|(k, of)| (named("shaft.coupling", k), of.at_mm)))
+        .chain(m.seats.iter().enumerate().map(|(k, of)| (named("bearing", k), of.at_mm)));
+    let of_sensors = m.sensors.iter().enumerate().filter(|(_, of)| of.on == SensorOn::Shaft);
+    let places = places.chain(of_sensors.map(|(k, of)| (named("sensor", k), of.at_mm)));
+    for (key, _) in places.filter(|(_, at)| !on_shaft(*at)) {
+        wrong(key, "beyond the shaft's ends".into(), format!("{} to {}", float(first), float(last)));
+    }
+    for (k, disc) in shaft.disc.iter().enumerate() {
+        if disc.bore_mm.zip(disc.diameter_mm).is_some_and(|(bore, outer)| bore >= outer) {
+            wrong(format!("shaft.disc.{k}.bore_mm"), "leaves nothing of the disc".into(), "below diameter_mm".into());
+        }
+    }
+    if m.seats.is_empty() {
+        wrong(
+            "bearing".into(),
+            "a shaft without bearings".into(),
+            "two [[bearing]], or one and a [[shaft.coupling]]".into(),
+        );
+    } else if m.seats.len() == 1
+        && !shaft.coupling.iter().any(|of| of.radial_stiffness_n_per_m > 0.0 || of.tilt_stiffness_nm_per_rad > 0.0)
+    {
+        let message = "a shaft on one bearing would turn about it like a pendulum";
+        wrong("bearing".into(), message.into(), "another [[bearing]], or a [[shaft.coupling]] that holds it".into());
+    }
+    let mut at: Vec<f64> = m.seats.iter().map(|seat| seat.at_mm).collect();
+    at.sort_by(f64::total_cmp);
+    if at.windows(2).any(|pair| pair[1] == pair[0]) {
+        wrong("bearing.1.at_mm".into(), "two bearings at one place".into(), "places that differ".into());
+    }
+    let count = m.housings.len();
+    let seats = m.seats.iter().enumerate().map(|(k, seat)| (format!("bearing.{k}.housing"), seat.housing, false));
+    let sensors = m.sensors.iter().enumerate().filter(|(_, of)| of.on == SensorOn::Housing);
+    let sensors = sensors.map(|(k, of)| (format!("sensor.{k}.housing"), of.housing, true));
+    for (key, housing, is_sensor) in seats.chain(sensors) {
+        match (housing, count) {
+            (Some(number), _) if number > count => {
+                wrong(key, format!("there are {count} [[housing]]"), format!("1 to {count}"));
+            }
+            (None, 0) if is_sensor => wrong(
+                key,
+                "there is no [[housing]] for a sensor".into(),
+                "a [[housing]], or on = \"shaft\"; a bearing's own outer ring is recorded as bearing1.outer_ax".into(),
+            ),
+            (None, 2..) => wrong(key, format!("which of the {count} [[housing]]?"), format!("1 to {count}")),
+            _ => {}
+        }
+    }
+    for (k, seat) in m.seats.iter().enumerate() {
+        if seat.fit_stiffness_n_per_m.is_some() && count == 0 {
+            let message = "a fit is that of an outer ring in a housing, and there is none";
+            wrong(format!("bearing.{k}.fit_stiffness_n_per_m"), message.into(), "a [[housing]]".into());
+        }
+    }
+    let mut names = Vec::new();
+    for (k, of) in m.sensors.iter().enumerate() {
+        let key = || format!("sensor.{k}.name");
+        let spelt = !of.name.is_empty() && of.name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if !spelt {
+            wrong(key(), "a channel's name has letters, digits and _".into(), "such as \"drive_end\"".into());
+        }
+        let place = (of.on == SensorOn::Shaft, m.housing_of(of.housing), of.name.as_str());
+        if names.contains(&place) {
+            wrong(key(), "two sensors of one name at one place".into(), "names that differ".into());
+        }
+        names.push(place);
+    }
+    problems
+}
+
+/// What bearings and machine together get wrong.
+pub(super) fn of_bearings(root: &Table, bearings: &[Scenario], text: &str, problems: &mut Vec<Problem>) {
+    let place = |key: &str| at(root, key).and_then(|node| Some(Place::new(text, node.span.clone()?)));
+    for key in OF_THE_SHAFT.map(|name| format!("operation.{name}")) {
+        if given(root, &key) {
+            let message = "in a machine loads act on the shaft";
+            let at = place(&key);
+            problems.push(Problem::error(key, message).allowed("[[shaft.load]] with at_mm and force_n").at(at));
+        }
+    }
+    if bearings.first().is_some_and(|of| of.simulation.model == ModelKind::Lumped) {
+        let key = "simulation.model";
+        let message = "the lumped model is of one bearing, whose rings do not move together with a shaft";
+        problems.push(Problem::error(key, message).allowed("\"full\" or \"tilting\"").at(place(key)));
+    }
+    if let Some(entry) = root.get("bearing").filter(|entry| !matches!(entry.node.value, Value::Array(_))) {
+        let message = "a machine's bearings are tables headed [[bearing]], with at_mm each";
+        let place = entry.node.span.clone().map(|span| Place::new(text, span));
+        problems.retain(|problem| problem.key != "bearing");
+        problems.push(Problem::error("bearing", message).allowed("[[bearing]]").at(place));
+    }
+}

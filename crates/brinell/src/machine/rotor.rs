@@ -1,0 +1,70 @@
+//! A machine with linear bearings: natural frequencies, critical speeds.
+
+use super::assembly::{Machine, Mount};
+use super::structure::Row;
+use brinell_shaft::{Equations, Linear, Port};
+
+/// Stiffness (N/m) and damping (N s/m) of a bearing between its rings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients {
+    /// K.
+    pub stiffness: [[f64; 2]; 2],
+    /// C.
+    pub damping: [[f64; 2]; 2],
+}
+
+impl Machine {
+    /// Equations of the shaft, of housings and of outer rings on supports of their own, in their modes, and each bearing as a spring and a
+    /// damper between two of their places. Bearings hold no tilt here.
+    pub fn linearised(&self, bearings: &[Coefficients]) -> (Equations, Vec<Linear>) {
+        // In a plane a structure has half of its coordinates, and a ring on its own support one.
+        let mut starts = Vec::new();
+        let mut size = 0;
+        for structure in &self.structures {
+            starts.push(size);
+            size += structure.size() / 2;
+        }
+        let alone: Vec<Option<usize>> = (self.bearings.iter())
+            .map(|seated| {
+                let is_alone = seated.mounts[1].is_none();
+                size += usize::from(is_alone);
+                is_alone.then_some(size - 1)
+            })
+            .collect();
+        let mut equations = Equations::new(size);
+        equations.mass.fill_with_identity();
+        for (structure, &start) in self.structures.iter().zip(&starts) {
+            let half = structure.size() / 2;
+            for k in 0..half {
+                // Of a rigid body shifts come before tilts, of a shaft X before Y: either way the first plane's are those of `in_first_plane`.
+                let own = structure.in_first_plane(k);
+                equations.stiffness[(start + k, start + k)] = structure.squares[own];
+                equations.damping[(start + k, start + k)] = structure.dampers[own];
+            }
+            for (k, row) in structure.gyroscopic_rows().enumerate() {
+                row.iter().enumerate().for_each(|(j, g)| equations.gyroscopic[(start + k, start + j)] = *g);
+            }
+        }
+        let mut linear = Vec::new();
+        for ((seated, own), of) in self.bearings.iter().zip(&alone).zip(bearings) {
+            let mut port = Port::zeros(size);
+            let mut add = |mount: &Mount, sign: f64| {
+                let structure = &self.structures[mount.structure];
+                let row: &Row = &mount.seat.shift[0];
+                for k in 0..structure.size() / 2 {
+                    port.0[starts[mount.structure] + k] += sign * row.share(structure.in_first_plane(k));
+                }
+            };
+            seated.mounts[0].iter().for_each(|mount| add(mount, 1.0));
+            seated.mounts[1].iter().for_each(|mount| add(mount, -1.0));
+            if let Some(k) = *own {
+                let (mass, support) = (seated.model.inertia.outer_ring, seated.model.outer_support);
+                port.0[k] = -mass.sqrt().recip();
+                equations.stiffness[(k, k)] = support.stiffness / mass;
+                equations.damping[(k, k)] = support.damping / mass;
+            }
+            linear.push(Linear { port, stiffness: of.stiffness, damping: of.damping });
+        }
+        (equations, linear)
+    }
+}

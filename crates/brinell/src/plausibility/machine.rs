@@ -1,0 +1,63 @@
+//! What an engineer would ask about a machine: what each bearing carries, whether anything has weight, whether a channel is meant.
+
+use super::warning::{WEIGHT_SHARE, short, warning};
+use crate::document::Problem;
+use crate::machine::{Balance, Carried, Machine};
+use crate::model::Model;
+use crate::scenario::{LoadOn, Scenario};
+use crate::simulate::Simulation;
+
+/// The bearings of a machine in its static balance, each on its own: its scenario with the load that it carries on the inner ring, and the
+/// model of that. Weights are part of the loads.
+pub fn carried(scenario: &Scenario, machine: &Machine, balance: &Balance) -> Vec<(Scenario, Model)> {
+    let one = |(k, of): (usize, &Carried)| {
+        let (mut alone, mut model) = (scenario.bearing_of_machine(k), machine.bearings[k].model.clone());
+        (alone.operation.load_n, alone.operation.load_on) = (of.force, LoadOn::InnerRing);
+        alone.operation.gravity_m_per_s2 = [0.0; 2];
+        (model.load.full, model.load.on, model.gravity) = (of.force, LoadOn::InnerRing, [0.0; 2]);
+        (alone, model)
+    };
+    balance.bearings.iter().enumerate().map(one).collect()
+}
+
+/// Of a bearing's warnings those that a machine does not answer, with the bearing's number.
+pub(super) fn of_bearing(k: usize, warnings: &[Problem]) -> impl Iterator<Item = Problem> {
+    const ANSWERED: [&str; 3] = ["support.", "simulation.record", "operation.gravity_m_per_s2"];
+    let concerns = |warning: &&Problem| !ANSWERED.iter().any(|key| warning.key.starts_with(key));
+    let numbered = move |warning: &Problem| {
+        let key = match warning.key.as_str() {
+            "operation.load_n" => "shaft.load".into(),
+            key if key.starts_with("simulation.") || key.starts_with("operation.") => key.to_owned(),
+            key => format!("bearing.{k}.{}", key.strip_prefix("bearing.").unwrap_or(key)),
+        };
+        let message = format!("bearing {}: {}", k + 1, warning.message);
+        Problem { key, message, value: None, ..warning.clone() }
+    };
+    warnings.iter().filter(concerns).map(numbered)
+}
+
+/// Of the machine as a whole.
+pub(super) fn warnings(scenario: &Scenario, simulation: &Simulation) -> Vec<Problem> {
+    let idle = simulation.idle_patterns().iter().map(|pattern| {
+        let message = format!("\"{pattern}\" matches no channel of this machine");
+        let allowed = "names of channels, such as \"bearing1.outer_ax\", \"shaft.x1\"; * stands for any characters";
+        Problem::warning("simulation.record", message).allowed(allowed)
+    });
+    idle.chain(weightless(scenario, simulation.machine())).collect()
+}
+
+/// A shaft whose weight is left out and counts beside the load.
+fn weightless(scenario: &Scenario, machine: &Machine) -> Option<Problem> {
+    let of = scenario.machine.as_ref()?;
+    let load =
+        of.shaft.load.iter().fold([0.0; 2], |sum: [f64; 2], of| [sum[0] + of.force_n[0], sum[1] + of.force_n[1]]);
+    let (load, weight) = (load[0].hypot(load[1]), machine.shaft_weight());
+    (scenario.operation.gravity_m_per_s2 == [0.0; 2] && weight > WEIGHT_SHARE * load).then(|| {
+        warning(
+            "operation.gravity_m_per_s2",
+            "[0.0, 0.0]".into(),
+            format!("the shaft and what is on it weigh {} N, and gravity is left out", short(weight)),
+            "[0.0, -9.81] m/s^2 for a horizontal shaft",
+        )
+    })
+}

@@ -1,0 +1,208 @@
+//! What is around a bearing in a machine: the shaft, the other bearings, housings, sensors.
+
+use super::Scenario;
+use super::choices::{Choice, choices};
+use super::unset::sections;
+
+choices! {
+    /// What an accelerometer of a machine sits on.
+    pub enum SensorOn {
+        Housing = "housing", "a housing";
+        Shaft = "shaft", "the shaft";
+    }
+}
+
+sections! {
+    /// A shaft on several bearings. The scenario that holds this is one of them, and has the speed, the gravity, the ramp of the load and
+    /// `[simulation]` of all; loads act on the shaft.
+    pub struct Machine {
+        /// The shaft.
+        pub shaft: Shaft,
+        /// Where each bearing is, in the file's order.
+        pub seats: Vec<Seat>,
+        /// Which of them the scenario itself is, from 0: the first that is damaged, or the first.
+        pub lead: usize,
+        /// The others, in order. Of `operation` and `simulation` they hold the same.
+        pub others: Vec<Scenario>,
+        /// Housings.
+        pub housings: Vec<RigidHousing>,
+        /// Accelerometers.
+        pub sensors: Vec<Accelerometer>,
+    }
+
+    /// `[shaft]`: a shaft of cylindrical parts.
+    pub struct Shaft {
+        /// Z of its ends and of every place where the diameter changes or that is looked at, mm, rising.
+        pub stations_mm: Vec<f64>,
+        /// Between one station and the next, mm.
+        pub diameters_mm: Vec<f64>,
+        /// Bores, likewise; none: solid.
+        pub bores_mm: Option<Vec<f64>>,
+        /// E, GPa.
+        pub youngs_modulus_gpa: f64,
+        /// G, GPa.
+        pub shear_modulus_gpa: f64,
+        /// kg/m^3.
+        pub density_kg_per_m3: f64,
+        /// Whether it does not bend.
+        pub rigid: bool,
+        /// Modes up to here are kept, Hz.
+        pub band_hz: f64,
+        /// Of each mode that bends.
+        pub damping_ratio: f64,
+        /// Discs, rotors, halves of couplings.
+        pub disc: Vec<Disc>,
+        /// What pulls round with the shaft.
+        pub unbalance: Vec<Unbalance>,
+        /// Forces.
+        pub load: Vec<ShaftLoad>,
+        /// Springs to the ground.
+        pub coupling: Vec<Coupling>,
+    }
+
+    /// `[[shaft.disc]]`: a rigid body on the shaft.
+    pub struct Disc {
+        /// Z, mm.
+        pub at_mm: f64,
+        /// Of a disc of the shaft's material that is not given by mass.
+        pub diameter_mm: Option<f64>,
+        /// Along the axis, likewise.
+        pub width_mm: Option<f64>,
+        /// Its bore, likewise.
+        pub bore_mm: Option<f64>,
+        /// kg.
+        pub mass_kg: f64,
+        /// About the axis, kg m^2.
+        pub polar_inertia_kg_m2: f64,
+        /// About a diameter, kg m^2.
+        pub diametral_inertia_kg_m2: f64,
+    }
+
+    /// `[[shaft.unbalance]]`.
+    pub struct Unbalance {
+        /// Z, mm.
+        pub at_mm: f64,
+        /// Mass times its distance from the axis, g mm.
+        pub size_g_mm: f64,
+        /// Where on the shaft: from X at t = 0, degrees.
+        pub angle_deg: f64,
+    }
+
+    /// `[[shaft.load]]`.
+    pub struct ShaftLoad {
+        /// Z, mm.
+        pub at_mm: f64,
+        /// F, N.
+        pub force_n: [f64; 2],
+    }
+
+    /// `[[shaft.coupling]]`.
+    pub struct Coupling {
+        /// Z, mm.
+        pub at_mm: f64,
+        /// N/m.
+        pub radial_stiffness_n_per_m: f64,
+        /// N m/rad.
+        pub tilt_stiffness_nm_per_rad: f64,
+    }
+
+    /// Where a bearing is, among the keys of `[[bearing]]`.
+    pub struct Seat {
+        /// Z of its middle, mm.
+        pub at_mm: f64,
+        /// Number of the housing that its outer ring sits in, from 1; `None`: in the only one, or on its own support where there is none.
+        pub housing: Option<usize>,
+        /// By how much the seat of the outer ring is off the line of the shaft, um.
+        pub offset_um: [f64; 2],
+        /// By how much it is tilted: its axis' slopes in (X, Z) and (Y, Z), mrad.
+        pub misalignment_mrad: [f64; 2],
+        /// Spring of the outer ring in its housing; none: it fits without play.
+        pub fit_stiffness_n_per_m: Option<f64>,
+        /// Damper of the fit.
+        pub fit_damping_ns_per_m: f64,
+    }
+
+    /// `[[housing]]`: a rigid body on springs, or modes.
+    pub struct RigidHousing {
+        /// Z of its centre of mass, mm.
+        pub at_mm: f64,
+        /// kg.
+        pub mass_kg: f64,
+        /// About X and Y, kg m^2.
+        pub inertia_kg_m2: f64,
+        /// N/m.
+        pub stiffness_n_per_m: f64,
+        /// N s/m.
+        pub damping_ns_per_m: f64,
+        /// N m/rad.
+        pub tilt_stiffness_nm_per_rad: f64,
+        /// N m s/rad.
+        pub tilt_damping_nms_per_rad: f64,
+    }
+
+    /// `[[sensor]]`: an accelerometer behind the anti-alias filter.
+    pub struct Accelerometer {
+        /// The end of its channel's name.
+        pub name: String,
+        /// What it sits on.
+        pub on: SensorOn,
+        /// Number of its housing, from 1; `None`: the only one.
+        pub housing: Option<usize>,
+        /// Z, mm.
+        pub at_mm: f64,
+        /// Counter-clockwise from X.
+        pub direction_deg: f64,
+    }
+}
+
+impl Machine {
+    /// How many bearings it has.
+    pub fn bearings(&self) -> usize {
+        self.seats.len()
+    }
+
+    /// The housing that a key names, from 0: the only one where it names none.
+    pub fn housing_of(&self, named: Option<usize>) -> Option<usize> {
+        named.map(|number| number.wrapping_sub(1)).or((self.housings.len() == 1).then_some(0))
+    }
+
+    /// The channel of an accelerometer.
+    pub fn channel_of(&self, sensor: &Accelerometer) -> String {
+        match (sensor.on, self.housing_of(sensor.housing)) {
+            (SensorOn::Housing, Some(k)) => format!("housing{}.{}", k + 1, sensor.name),
+            _ => format!("shaft.{}", sensor.name),
+        }
+    }
+
+    /// The bearings on their own and with where they are, in the file's order; `scenario` is the one that holds this.
+    pub fn each<'a>(&'a self, scenario: &'a Scenario) -> impl Iterator<Item = (&'a Seat, Scenario)> {
+        self.seats.iter().enumerate().map(|(k, seat)| (seat, scenario.bearing_of_machine(k)))
+    }
+}
+
+impl Scenario {
+    /// The channel that findings of its run are of: the sensor's acceleration along the axis nearer the load; of a machine the accelerometer
+    /// nearest to the bearing that is observed, or that bearing's outer ring.
+    pub fn shown_channel(&self) -> String {
+        let Some(machine) = &self.machine else {
+            return ["sensor_ax", "sensor_ay"][self.operation.axis_of_load()].into();
+        };
+        let far = |of: &&Accelerometer| (of.at_mm - machine.seats[machine.lead].at_mm).abs();
+        let nearest = machine.sensors.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+        nearest.map_or_else(|| format!("bearing{}.outer_ay", machine.lead + 1), |of| machine.channel_of(of))
+    }
+
+    /// Bearing `k` of its machine, from 0, as a scenario without the machine; without one the scenario itself.
+    pub fn bearing_of_machine(&self, k: usize) -> Self {
+        let Some(machine) = &self.machine else { return self.clone() };
+        let mut alone = match k.cmp(&machine.lead) {
+            std::cmp::Ordering::Less => machine.others[k].clone(),
+            std::cmp::Ordering::Equal => Self { machine: None, ..self.clone() },
+            std::cmp::Ordering::Greater => machine.others[k - 1].clone(),
+        };
+        alone.name.clone_from(&self.name);
+        alone.operation = self.operation.clone();
+        alone.simulation = self.simulation.clone();
+        alone
+    }
+}

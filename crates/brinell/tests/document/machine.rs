@@ -1,0 +1,118 @@
+//! Files of machines.
+
+use super::{good, report};
+use brinell::document::{machine_schema, read};
+use brinell::scenario::Scenario;
+
+const MOTOR: &str = include_str!("../../../../examples/motor.toml");
+
+fn with(changes: &[(&str, &str)]) -> Result<brinell::document::Loaded, Vec<brinell::document::Problem>> {
+    read(MOTOR, &changes.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect::<Vec<_>>())
+}
+
+#[test]
+fn prop_a_machines_file_reads_back() {
+    let loaded = good(MOTOR);
+    let machine = loaded.scenario.machine.as_ref().unwrap();
+    assert_eq!((machine.bearings(), machine.lead), (2, 0));
+    assert_eq!(machine.others[0].bearing.preset.as_deref(), Some("6203"));
+    let assumed = |of: &brinell::document::Loaded| {
+        let mut keys: Vec<_> = of.provenance.iter().filter(|p| p.assumed).map(|p| p.key.clone()).collect();
+        keys.sort();
+        keys
+    };
+    let again = good(&loaded.to_toml());
+    assert_eq!(again.scenario, loaded.scenario);
+    assert_eq!(assumed(&again), assumed(&loaded));
+    assert!(assumed(&loaded).contains(&"bearing.1.cage.mass_kg".into()));
+    assert!(assumed(&loaded).contains(&"shaft.density_kg_per_m3".into()));
+    assert_eq!(Scenario::from_toml(&loaded.scenario.to_toml()).unwrap(), loaded.scenario);
+    assert_eq!(loaded.scenario.problems(), []);
+}
+
+#[test]
+fn prop_the_bearing_that_is_observed_is_the_first_that_is_damaged() {
+    let second = with(&[
+        (
+            "bearing.1.defects",
+            "[{ on = \"inner-raceway\", center_deg = 0, depth_um = 5, shape = { circle = { diameter_mm = 1 } } }]",
+        ),
+        ("bearing.0.defects", "[]"),
+    ]);
+    let scenario = second.unwrap().scenario;
+    let machine = scenario.machine.as_ref().unwrap();
+    assert_eq!(machine.lead, 1);
+    assert_eq!(scenario.bearing.preset.as_deref(), Some("6203"));
+    let names: Vec<_> =
+        machine.each(&scenario).map(|(seat, of)| (seat.at_mm, of.bearing.preset, of.defects.len())).collect();
+    assert_eq!(names, [(50.0, Some("6205".into()), 0), (250.0, Some("6203".into()), 1)]);
+    assert_eq!(scenario.shown_channel(), "housing1.fan_end");
+}
+
+#[test]
+fn prop_sections_at_the_top_are_of_every_bearing_and_a_bearings_own_go_before_them() {
+    let loaded = with(&[("friction.raceway_coefficient", "0.03"), ("bearing.1.friction.raceway_coefficient", "0.04")]);
+    let scenario = loaded.unwrap_or_else(|problems| panic!("{}", report(&problems))).scenario;
+    assert_eq!(scenario.friction.raceway_coefficient, 0.03);
+    assert_eq!(scenario.machine.unwrap().others[0].friction.raceway_coefficient, 0.04);
+}
+
+#[test]
+fn prop_problems_of_a_machine_name_the_key() {
+    for (changes, key, words) in [
+        (&[("bearing.1.at_mm", "310")][..], "bearing.1.at_mm", "beyond the shaft's ends"),
+        (&[("shaft.load.0.at_mm", "-1")], "shaft.load.0.at_mm", "beyond the shaft's ends"),
+        (&[("bearing.1.at_mm", "50")], "bearing.1.at_mm", "one place"),
+        (&[("bearing.1.housing", "2")], "bearing.1.housing", "there are 1"),
+        (&[("sensor.1.name", "drive_end")], "sensor.1.name", "two sensors of one name"),
+        (&[("sensor.1.name", "a b")], "sensor.1.name", "letters, digits"),
+        (&[("shaft.diameters_mm", "[25, 35]")], "shaft.diameters_mm", "2 diameters for 3 part(s)"),
+        (&[("shaft.stations_mm", "[0, 70, 60, 300]")], "shaft.stations_mm", "must rise"),
+        (&[("shaft.bores_mm", "[0, 40, 0]")], "shaft.bores_mm", "leaves no wall"),
+        (&[("shaft.band_hz", "30000")], "shaft.band_hz", ""),
+        (&[("operation.load_n", "[0, -100]")], "operation.load_n", "loads act on the shaft"),
+        (&[("simulation.model", "lumped")], "simulation.model", "lumped"),
+        (&[("bearing.1.preset", "6999")], "bearing.1.preset", "catalogue"),
+        (&[("bearing.0.defects.0.depth_um", "-3")], "bearing.0.defects.0.depth_um", ""),
+        (&[("bearing.0.cage.mass_kg", "0")], "bearing.0.cage.mass_kg", ""),
+        (&[("bearing.0.atmm", "3")], "bearing.0.atmm", "unknown key"),
+        (&[("shaft.wobble", "3")], "shaft.wobble", "unknown key"),
+        (&[("housing.0.mass_kg", "0")], "housing.0.mass_kg", ""),
+        (&[("operation.speed_rpm", "0")], "operation.speed_rpm", "must turn"),
+    ] {
+        let problems = with(changes).expect_err(key);
+        let found = problems.iter().find(|problem| problem.key == key);
+        let found = found.unwrap_or_else(|| panic!("{key}: {}", report(&problems)));
+        assert!(found.message.contains(words), "{key}: {}", found.message);
+    }
+    // One bearing without anything else, and a bearing that is no list.
+    let (one, _) = MOTOR.split_once("[[bearing]]                          # fan end").unwrap();
+    let rest = "[operation]\nspeed_rpm = 1772.0\n";
+    let problems = read(&format!("{one}{rest}"), &[]).unwrap_err();
+    assert!(problems.iter().any(|p| p.key == "bearing" && p.message.contains("pendulum")), "{}", report(&problems));
+    let single = format!("[shaft]\nstations_mm = [0, 1]\ndiameters_mm = [20]\n[bearing]\npreset = \"6205\"\n{rest}");
+    let problems = read(&single, &[]).unwrap_err();
+    assert!(problems.iter().any(|p| p.key == "bearing" && p.line == Some(4)), "{}", report(&problems));
+}
+
+#[test]
+fn prop_the_schema_of_machines_has_every_key_of_a_written_one() {
+    let schema = machine_schema();
+    let written: toml::Table = good(MOTOR).scenario.to_toml().parse().unwrap();
+    fn holds(schema: &serde_json::Value, value: &toml::Value, path: &str) {
+        match value {
+            toml::Value::Table(table) if schema["properties"].is_object() => {
+                for (name, inner) in table {
+                    let of = &schema["properties"][name];
+                    assert!(of.is_object(), "{path}.{name} is not in the schema");
+                    holds(of, inner, &format!("{path}.{name}"));
+                }
+            }
+            toml::Value::Array(items) if schema["items"]["properties"].is_object() => {
+                items.iter().for_each(|item| holds(&schema["items"], item, path));
+            }
+            _ => {}
+        }
+    }
+    holds(&schema, &toml::Value::Table(written), "");
+}
