@@ -52,18 +52,22 @@ pub struct Mode {
     pub whirl: Whirl,
 }
 
+/// Complex amplitudes of the coordinates of X, then of those of Y.
+type Shape = DVector<Complex<f64>>;
+
 /// A mode and its shape.
-type Motion = (Mode, DVector<Complex<f64>>);
+type Motion = (Mode, Shape);
 
-/// Share of a motion's kinetic energy that is that of another speed's, from which on both are one; of two that mix, one has a half.
-const SAME_MOTION: f64 = 0.4;
+/// Share of a motion's kinetic energy that is that of one at another speed: from the first on both are surely one; below the second they
+/// are not. Of two motions that mix, one has a half.
+const SAME_MOTION: [f64; 2] = [0.8, 0.4];
 
-/// How often a step from speed to speed is halved to find a motion again.
+/// How often a step from speed to speed is halved until each motion is surely found again.
 const HALVINGS: u32 = 5;
 
 impl Whirl {
     /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)): the coordinates of X, then those of Y, and M times these.
-    fn of(shape: &DVector<Complex<f64>>, momentum: &DVector<Complex<f64>>) -> Self {
+    fn of(shape: &Shape, momentum: &Shape) -> Self {
         let n = shape.len() / 2;
         let turned = shape.rows(0, n).dotc(&momentum.rows(n, n)).im;
         if turned <= 0.0 { Self::Forward } else { Self::Backward }
@@ -136,8 +140,9 @@ impl Equations {
             }
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let enough = SAME_MOTION[usize::from(halvings == 0)];
         let mut found: Vec<_> = now.iter().map(|_| None).collect();
-        for (_, i, j) in pairs.into_iter().take_while(|pair| pair.0 > SAME_MOTION) {
+        for (_, i, j) in pairs.into_iter().take_while(|pair| pair.0 > enough) {
             if found[i].is_none() {
                 found[i] = there[j].take();
             }
@@ -150,7 +155,7 @@ impl Equations {
         found
     }
 
-    /// Modes with their shapes: the coordinates of X, then those of Y.
+    /// Modes with their shapes.
     fn motions(&self, bearings: &[Linear], w: f64) -> Vec<Motion> {
         let n = 2 * self.size();
         let [mass, damping, stiffness] = self.both_planes(bearings, w);
@@ -174,7 +179,7 @@ impl Equations {
         for (k, &rate) in swinging.iter().enumerate() {
             // Motions of one rate may be any two of theirs: these are two at right angles.
             let twins = (0..k).rev().take_while(|&j| (swinging[j] - rate).norm() < 1e-6 * rate.norm());
-            let twins: Vec<_> = twins.map(|j| (motions[j].1.clone(), self.momentum(&motions[j].1))).collect();
+            let twins: Vec<_> = twins.map(|j| [motions[j].1.clone(), self.momentum(&motions[j].1)]).collect();
             let shape = shape([&mass, &damping, &stiffness], rate, &twins);
             let whirl = Whirl::of(&shape, &self.momentum(&shape));
             let mode = Mode {
@@ -188,7 +193,7 @@ impl Equations {
     }
 
     /// M times both planes of a shape.
-    fn momentum(&self, shape: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
+    fn momentum(&self, shape: &Shape) -> Shape {
         let n = self.size();
         let part = |of: fn(&Complex<f64>) -> f64| {
             let planes = DMatrix::from_iterator(n, 2, shape.iter().map(of));
@@ -281,11 +286,7 @@ fn dynamic([mass, damping, stiffness]: [&DMatrix<f64>; 3], s: Complex<f64>) -> D
 }
 
 /// The motion of an eigenvalue at right angles to its `twins` (and M times these), by inverse iteration beside it.
-fn shape(
-    matrices: [&DMatrix<f64>; 3],
-    rate: Complex<f64>,
-    twins: &[(DVector<Complex<f64>>, DVector<Complex<f64>>)],
-) -> DVector<Complex<f64>> {
+fn shape(matrices: [&DMatrix<f64>; 3], rate: Complex<f64>, twins: &[[Shape; 2]]) -> Shape {
     let beside = dynamic(matrices, rate * Complex::new(1.0, 1e-7)).lu();
     // No eigenvector is orthogonal to it but by chance.
     let mut shape = DVector::from_fn(matrices[0].nrows(), |k, _| Complex::new(1.0, (k as f64 + 1.0).sin()));
@@ -293,7 +294,7 @@ fn shape(
         if let Some(better) = beside.solve(&shape) {
             shape = better;
         }
-        for (twin, heavy) in twins {
+        for [twin, heavy] in twins {
             let share = heavy.dotc(&shape) / twin.dotc(heavy);
             shape -= twin * share;
         }
