@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 pub struct Material {
     /// E, Pa.
     pub youngs_modulus: f64,
-    /// G, Pa.
+    /// G, Pa; infinite in a beam that does not shear.
     pub shear_modulus: f64,
     /// kg/m^3.
     pub density: f64,
@@ -73,14 +73,14 @@ pub struct Beam {
     pub equations: Equations,
 }
 
-/// Two places that are one, m.
-const SAME_PLACE: f64 = 1e-9;
+/// Two places that are one, m: a shorter element would only cost digits.
+const SAME_PLACE: f64 = 1e-7;
 
 impl Beam {
     /// The parts follow one another from Z = 0 on. Nodes are where parts end, where anything sits and at the places `further`, and between
     /// them so many that no element is longer than `longest`, m.
     ///
-    /// `None` where something sits beyond the shaft's ends, or nothing has a length.
+    /// `None` where something sits beyond the shaft's ends, a part has no length or no section, or elements are to have no length.
     pub fn new(
         material: &Material,
         parts: &[Part],
@@ -94,7 +94,13 @@ impl Beam {
         let placed = discs.iter().map(|d| d.at).chain(springs.iter().map(|s| s.at)).chain(further.iter().copied());
         let mut places: Vec<f64> = ends.iter().copied().chain(placed).collect();
         let is_on = |z: &f64| (-SAME_PLACE..=length + SAME_PLACE).contains(z);
-        if parts.is_empty() || !parts.iter().all(|part| part.length > 0.0) || !places.iter().all(is_on) {
+        let is_body = |part: &Part| part.length > 0.0 && (0.0..part.outer_diameter).contains(&part.inner_diameter);
+        if parts.is_empty()
+            || !parts.iter().all(is_body)
+            || !places.iter().all(is_on)
+            || longest.is_nan()
+            || longest <= 0.0
+        {
             return None;
         }
         places.sort_by(f64::total_cmp);
@@ -243,9 +249,10 @@ fn symmetric([a, b, c, d, e]: [f64; 5], f: f64) -> Matrix4<f64> {
     matrix
 }
 
-/// Share of the section that carries shear: Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335.
+/// Share of the section that carries shear: Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335. Without
+/// the limits of Poisson's ratio it would fall as 1/G, and no G would make a beam that does not shear.
 fn shear_coefficient(material: &Material, outer: f64, inner: f64) -> f64 {
-    let nu = 0.5 * material.youngs_modulus / material.shear_modulus - 1.0;
+    let nu = (0.5 * material.youngs_modulus / material.shear_modulus - 1.0).clamp(0.0, 0.5);
     let square = (inner / outer).powi(2);
     let one = (1.0 + square).powi(2);
     6.0 * (1.0 + nu) * one / ((7.0 + 6.0 * nu) * one + (20.0 + 12.0 * nu) * square)

@@ -55,16 +55,28 @@ pub struct Mode {
     pub frequency: f64,
     /// Share of critical damping.
     pub damping_ratio: f64,
-    /// Of most of the shaft; at rest of round bearings either.
+    /// Of most of the shaft; at rest either.
     pub whirl: Whirl,
 }
 
+/// Complex amplitudes of the coordinates of X, then of those of Y.
+type Shape = DVector<Complex<f64>>;
+
+/// A mode and its shape.
+type Motion = (Mode, Shape);
+
+/// Share of a motion's kinetic energy that is that of one at another speed: from the first on both are surely one; below the second they
+/// are not. Of two motions that mix, one has a half.
+const SAME_MOTION: [f64; 2] = [0.8, 0.4];
+
+/// How often a step from speed to speed is halved until each motion is surely found again.
+const HALVINGS: u32 = 5;
+
 impl Whirl {
-    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)): the coordinates of X, then those of Y, and their mass.
-    fn of(shape: &DVector<Complex<f64>>, mass: &DMatrix<Complex<f64>>) -> Self {
+    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)): the coordinates of X, then those of Y, and M times these.
+    fn of(shape: &Shape, momentum: &Shape) -> Self {
         let n = shape.len() / 2;
-        let [x, y] = [0, n].map(|from| shape.rows(from, n).into_owned());
-        let turned = x.dotc(&(mass.view((0, 0), (n, n)) * y)).im;
+        let turned = shape.rows(0, n).dotc(&momentum.rows(n, n)).im;
         if turned <= 0.0 { Self::Forward } else { Self::Backward }
     }
 
@@ -88,8 +100,70 @@ impl Equations {
         self.mass.nrows()
     }
 
-    /// The motions that decay in oscillation at the speed `w` (rad/s), by ascending frequency.
+    /// The motions that oscillate at the speed `w` (rad/s), by ascending frequency. None where a part has no mass or a number is not finite.
     pub fn modes(&self, bearings: &[Linear], w: f64) -> Vec<Mode> {
+        self.motions(bearings, w).into_iter().map(|(mode, _)| mode).collect()
+    }
+
+    /// The lines of a Campbell diagram: the first `count` modes at the first of `speeds` (rad/s), and at each further speed those that move
+    /// most as they did, so that lines may cross; the bearings are those at the speed. An entry a speed, `None` from where a motion no longer
+    /// oscillates.
+    pub fn campbell(
+        &self,
+        bearings: impl Fn(f64) -> Vec<Linear>,
+        speeds: &[f64],
+        count: usize,
+    ) -> Vec<Vec<Option<Mode>>> {
+        let Some(&first) = speeds.first() else { return Vec::new() };
+        let at = |w: f64| self.motions(&bearings(w), w);
+        let mut now: Vec<_> = at(first).into_iter().take(count).map(Some).collect();
+        let told =
+            |now: &[Option<Motion>]| -> Vec<_> { now.iter().map(|motion| motion.as_ref().map(|m| m.0)).collect() };
+        let mut columns = vec![told(&now)];
+        for pair in speeds.windows(2) {
+            now = self.follow(&at, now, [pair[0], pair[1]], HALVINGS);
+            columns.push(told(&now));
+        }
+        (0..now.len()).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
+    }
+
+    /// Motions from one speed to another, by way of the speed between them where one is not found again.
+    fn follow(
+        &self,
+        at: &impl Fn(f64) -> Vec<Motion>,
+        now: Vec<Option<Motion>>,
+        [from, to]: [f64; 2],
+        halvings: u32,
+    ) -> Vec<Option<Motion>> {
+        let mut there: Vec<_> = at(to).into_iter().map(Some).collect();
+        let mut pairs = Vec::new();
+        for (j, motion) in there.iter().enumerate() {
+            let Some((_, shape)) = motion else { continue };
+            let heavy = self.momentum(shape);
+            for (i, before) in now.iter().enumerate() {
+                let Some((_, before)) = before else { continue };
+                let share = before.dotc(&heavy).norm_sqr() / shape.dotc(&heavy).re;
+                pairs.push((share / before.dotc(&self.momentum(before)).re, i, j));
+            }
+        }
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let enough = SAME_MOTION[usize::from(halvings == 0)];
+        let mut found: Vec<_> = now.iter().map(|_| None).collect();
+        for (_, i, j) in pairs.into_iter().take_while(|pair| pair.0 > enough) {
+            if found[i].is_none() {
+                found[i] = there[j].take();
+            }
+        }
+        if halvings > 0 && now.iter().zip(&found).any(|(before, after)| before.is_some() && after.is_none()) {
+            let between = 0.5 * (from + to);
+            let half = self.follow(at, now, [from, between], halvings - 1);
+            return self.follow(at, half, [between, to], halvings - 1);
+        }
+        found
+    }
+
+    /// Modes with their shapes.
+    fn motions(&self, bearings: &[Linear], w: f64) -> Vec<Motion> {
         let n = 2 * self.size();
         let [mass, damping, stiffness] = self.both_planes(bearings, w);
         let Some(inverse) = mass.clone().cholesky() else { return Vec::new() };
@@ -100,31 +174,49 @@ impl Equations {
         matrix.view_mut((0, n), (n, n)).fill_with_identity();
         matrix.view_mut((n, 0), (n, n)).copy_from(&(-spring / (unit * unit)));
         matrix.view_mut((n, n), (n, n)).copy_from(&(-damper / unit));
-        let complex = mass.map(Complex::from);
+        // Of what is not finite no eigenvalue would ever be found.
+        if !matrix.iter().all(|x| x.is_finite()) {
+            return Vec::new();
+        }
         let rates = matrix.complex_eigenvalues() * Complex::from(unit);
         let scale = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
         let mut swinging: Vec<_> = rates.iter().copied().filter(|rate| rate.im > 1e-9 * scale).collect();
         swinging.sort_by(|a, b| a.im.total_cmp(&b.im));
-        let whirl = |rate: Complex<f64>| {
-            let of = Whirl::of(&shape([&mass, &damping, &stiffness], rate), &complex);
-            if w < 0.0 { of.reversed() } else { of }
-        };
-        let mode = |rate: Complex<f64>| Mode {
-            frequency: rate.im / TAU,
-            damping_ratio: -rate.re / rate.norm(),
-            whirl: whirl(rate),
-        };
-        swinging.into_iter().map(mode).collect()
+        let mut motions: Vec<Motion> = Vec::new();
+        for (k, &rate) in swinging.iter().enumerate() {
+            // Motions of one rate may be any two of theirs: these are two at right angles.
+            let twins = (0..k).rev().take_while(|&j| (swinging[j] - rate).norm() < 1e-6 * rate.norm());
+            let twins: Vec<_> = twins.map(|j| [motions[j].1.clone(), self.momentum(&motions[j].1)]).collect();
+            let shape = shape([&mass, &damping, &stiffness], rate, &twins);
+            let whirl = Whirl::of(&shape, &self.momentum(&shape));
+            let mode = Mode {
+                frequency: rate.im / TAU,
+                damping_ratio: -rate.re / rate.norm(),
+                whirl: if w < 0.0 { whirl.reversed() } else { whirl },
+            };
+            motions.push((mode, shape));
+        }
+        motions
     }
 
-    /// Speeds, rad/s and ascending, that are natural frequencies of the shaft that turns with them, without damping; on round bearings
-    /// unbalance excites the forward ones alone.
+    /// M times both planes of a shape.
+    fn momentum(&self, shape: &Shape) -> Shape {
+        let n = self.size();
+        let part = |of: fn(&Complex<f64>) -> f64| {
+            let planes = DMatrix::from_iterator(n, 2, shape.iter().map(of));
+            &self.mass * planes
+        };
+        let [re, im] = [part(|u| u.re), part(|u| u.im)];
+        DVector::from_iterator(2 * n, re.iter().zip(&im).map(|(re, im)| Complex::new(*re, *im)))
+    }
+
+    /// Speeds, rad/s and ascending, that are natural frequencies of the shaft that turns with them, without damping and with the symmetric
+    /// part of the bearings' stiffness; on round bearings unbalance excites the forward ones alone. None where a rigid motion is free.
     pub fn critical_speeds(&self, bearings: &[Linear]) -> Vec<(f64, Whirl)> {
         let n = self.size();
         let [mass, _, stiffness] = self.both_planes(bearings, 0.0);
-        let Some(root) = stiffness.cholesky() else { return Vec::new() };
-        let mass = mass.map(Complex::from);
-        let mut turning = mass.clone();
+        let Some(root) = (0.5 * (&stiffness + stiffness.transpose())).cholesky() else { return Vec::new() };
+        let mut turning = mass.map(Complex::from);
         let gyroscopic = self.gyroscopic.map(|g| Complex::new(0.0, g));
         // K x = w^2 (M x - i G y) and K y = w^2 (M y + i G x), of x and y that go as exp(i w t).
         turning.view_mut((0, n), (n, n)).copy_from(&(-&gyroscopic));
@@ -138,7 +230,8 @@ impl Equations {
         let found = eigen.eigenvalues.iter().zip(shapes.column_iter());
         let mut speeds: Vec<_> = found
             .filter(|(value, _)| **value > 1e-12 * largest)
-            .map(|(value, shape)| (value.sqrt().recip(), Whirl::of(&shape.into_owned(), &mass)))
+            .map(|(value, shape)| (value, shape.into_owned()))
+            .map(|(value, shape)| (value.sqrt().recip(), Whirl::of(&shape, &self.momentum(&shape))))
             .collect();
         speeds.sort_by(|a, b| a.0.total_cmp(&b.0));
         speeds
@@ -199,16 +292,21 @@ fn dynamic([mass, damping, stiffness]: [&DMatrix<f64>; 3], s: Complex<f64>) -> D
     mass.map(|m| s * s * m) + damping.map(|c| s * c) + stiffness.map(Complex::from)
 }
 
-/// The motion of an eigenvalue, by inverse iteration beside it.
-fn shape(matrices: [&DMatrix<f64>; 3], rate: Complex<f64>) -> DVector<Complex<f64>> {
+/// The motion of an eigenvalue at right angles to its `twins` (and M times these), by inverse iteration beside it.
+fn shape(matrices: [&DMatrix<f64>; 3], rate: Complex<f64>, twins: &[[Shape; 2]]) -> Shape {
     let beside = dynamic(matrices, rate * Complex::new(1.0, 1e-7)).lu();
     // No eigenvector is orthogonal to it but by chance.
     let mut shape = DVector::from_fn(matrices[0].nrows(), |k, _| Complex::new(1.0, (k as f64 + 1.0).sin()));
     for _ in 0..3 {
         if let Some(better) = beside.solve(&shape) {
-            let size = better.norm();
-            shape = better / Complex::from(size);
+            shape = better;
         }
+        for [twin, heavy] in twins {
+            let share = heavy.dotc(&shape) / twin.dotc(heavy);
+            shape -= twin * share;
+        }
+        let size = shape.norm();
+        shape /= Complex::from(size);
     }
     shape
 }
