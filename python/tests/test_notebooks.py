@@ -22,11 +22,14 @@ def of_fewer_runs(notebook, folder):
 
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_prop_a_notebook_runs(path, tmp_path):
+def test_prop_a_notebook_runs(path, tmp_path, monkeypatch, request):
     nbformat = pytest.importorskip("nbformat")
     client = pytest.importorskip("nbclient")
     if path.stem in ("classifier", "sim_to_real"):
         pytest.importorskip("sklearn")
+    if path.stem == "rotor":
+        pytest.importorskip("ross")
+        monkeypatch.setenv("BRINELL", request.getfixturevalue("command"))
     notebook = nbformat.read(path, as_version=4)
     assert all(not cell.outputs for cell in notebook.cells if cell.cell_type == "code"), "kept without outputs"
     if path.stem == "sim_to_real":

@@ -120,6 +120,9 @@ pub(crate) struct SchemaArgs {
     /// Of summary.json, which every run writes
     #[arg(long, conflicts_with = "plan")]
     pub(crate) summary: bool,
+    /// Of scenarios of a machine: a shaft on several bearings
+    #[arg(long, conflicts_with_all = ["plan", "summary"])]
+    pub(crate) machine: bool,
 }
 
 #[derive(Debug, Subcommand)]

@@ -58,6 +58,8 @@ pub(crate) enum Command {
         #[command(subcommand)]
         command: DefectCommand,
     },
+    /// Write a bearing's stiffness and damping over speed and load, and its damage's force, for rotor programs such as ROSS
+    Coefficients(crate::coefficients::CoefficientsArgs),
     /// Say what a measured signal shows: which component's damage, how sure; or compare it with a simulated one
     Analyze(Box<crate::analyze::AnalyzeArgs>),
     /// Vary keys over lists and ranges, many runs in parallel, one table and plots; resumes where it stopped

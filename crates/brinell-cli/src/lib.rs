@@ -9,6 +9,7 @@ mod calibrate;
 mod campaign;
 mod check;
 mod cli;
+mod coefficients;
 mod compare;
 mod dataset;
 mod defect;
@@ -115,6 +116,7 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Bearing { command } => look_up::bearing(&command),
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
+        Command::Coefficients(args) => coefficients::run(&args),
         Command::Analyze(args) => analyze::analyze(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Calibrate(args) => calibrate::calibrate(&args),

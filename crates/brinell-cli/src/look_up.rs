@@ -18,6 +18,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
     let schema = match (args.plan, args.summary) {
         (true, _) => brinell_study::design::plan_schema(),
         (_, true) => brinell::summary::json_schema(),
+        _ if args.machine => brinell::document::machine_schema(),
         _ => brinell::document::json_schema(),
     };
     say::json(&schema);

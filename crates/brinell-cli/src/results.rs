@@ -28,6 +28,7 @@ pub(crate) const REPORT: &str = "report.html";
 pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
 pub(crate) const PREVIEW: &str = "preview.json";
+pub(crate) const COEFFICIENTS: &str = "coefficients.json";
 
 /// A scenario file as it is; of a folder with the results of a run, the one in it.
 pub(crate) fn scenario_file(path: &Path) -> PathBuf {
@@ -51,7 +52,8 @@ impl Results {
     pub(crate) const ANALYSIS: Self = Self { name: "analyze", manifest: ANALYSIS, subject: "signal" };
     pub(crate) const COMPARISON: Self = Self { name: "compare", manifest: COMPARISON, subject: "set of scenarios" };
     pub(crate) const PREVIEW: Self = Self { name: "defect preview", manifest: PREVIEW, subject: "scenario" };
-    const ALL: [Self; 4] = [Self::RUN, Self::ANALYSIS, Self::COMPARISON, Self::PREVIEW];
+    pub(crate) const COEFFICIENTS: Self = Self { name: "coefficients", manifest: COEFFICIENTS, subject: "scenario" };
+    const ALL: [Self; 5] = [Self::RUN, Self::ANALYSIS, Self::COMPARISON, Self::PREVIEW, Self::COEFFICIENTS];
 
     /// Those in a folder, as their manifest tells of them, and the names that it lists.
     fn of(folder: &Path) -> Option<(Self, Value, Vec<String>)> {

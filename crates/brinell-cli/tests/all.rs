@@ -9,6 +9,7 @@ mod analyze_units;
 mod analyze_warnings;
 mod calibrate;
 mod check;
+mod coefficients;
 mod common;
 mod compare;
 mod damage_files;

@@ -154,6 +154,8 @@ pub mod bearing;
 #[doc(hidden)]
 pub mod cage;
 pub mod channel;
+#[doc(hidden)]
+pub mod coefficients;
 pub mod contact;
 #[doc(hidden)]
 pub mod defect;

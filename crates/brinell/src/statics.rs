@@ -37,6 +37,11 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     }
 }
 
+/// Damping of a bearing whose rings do not tilt, between these, about a balance, N s/m: its elements condensed out.
+pub(crate) fn damping(model: &Model, problem: &Problem, balance: &Balance) -> [[f64; 2]; 2] {
+    planar::damping(model, problem, balance)
+}
+
 /// Springs to the ground and forces of a bearing's ring coordinates: shifts of the inner and the outer ring, m, each followed by its tilts times
 /// the pitch radius where it tilts.
 pub(crate) fn held_by(model: &Model) -> [Vec<f64>; 2] {

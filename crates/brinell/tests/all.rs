@@ -5,6 +5,7 @@ mod accuracy;
 mod any_scenario;
 mod architecture;
 mod balls;
+mod coefficients;
 mod common;
 mod conservation;
 mod convergence;

@@ -77,7 +77,6 @@ fn share(one: &DerivedBearing) {
     say!("  carries                 ({}, {}) N", significant(x, size, 4), significant(y, size, 4));
     let [a, b] = one.carried.misalignment.map(|slope| 1e3 * slope);
     say!("  misaligned by           ({}, {}) mrad", significant(a, a.hypot(b), 3), significant(b, a.hypot(b), 3));
-    say!("  stiffness along load    {} N/m", short(one.stiffness_along_load(), 3));
 }
 
 fn shaft(of: &Machine, derived: &DerivedMachine) {

@@ -17,6 +17,8 @@ use std::process::ExitCode;
 
 /// What an editor explains the keys with; the first line of each scenario names it.
 const SCHEMA: &str = "brinell-schema.json";
+/// The same of machines.
+const MACHINE_SCHEMA: &str = "brinell-machine-schema.json";
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
@@ -61,6 +63,10 @@ enum Template {
     DataSet,
     /// A deep groove ball bearing
     Ball,
+    /// A shaft on two bearings, each in a housing of its own: a fan
+    Machine,
+    /// An electric motor: two bearings in one housing, damage at one end, a sensor at each
+    Motor,
 }
 
 impl Template {
@@ -74,7 +80,13 @@ impl Template {
             Self::Measured => include_str!("measured.toml"),
             Self::DataSet => include_str!("data-set.toml"),
             Self::Ball => include_str!("ball.toml"),
+            Self::Machine => include_str!("machine.toml"),
+            Self::Motor => include_str!("motor.toml"),
         }
+    }
+
+    fn is_of_machine(self) -> bool {
+        matches!(self, Self::Machine | Self::Motor)
     }
 
     fn word(self) -> String {
@@ -101,6 +113,14 @@ impl InitArgs {
 
 pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     let template = args.template;
+    if template.is_of_machine() && (args.bearing.is_some() || args.full) {
+        let option = if args.full { "--full" } else { "--bearing" };
+        return Err(Failure::Usage(format!(
+            "{option} is of templates of one bearing; --template {} has bearings of its own: edit their presets in the file, and `brinell schema --machine` \
+             explains every key",
+            template.word()
+        )));
+    }
     let bearing = bearing(args)?;
     let names = Names::of(args);
     let mut text = filled(template.text(), &names, &bearing);
@@ -119,7 +139,10 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     };
     let beside = |name: &str| file.with_file_name(name);
-    files.push((beside(SCHEMA), pretty(&brinell::document::json_schema()).into()));
+    files.push(match template.is_of_machine() {
+        true => (beside(MACHINE_SCHEMA), pretty(&brinell::document::machine_schema()).into()),
+        false => (beside(SCHEMA), pretty(&brinell::document::json_schema()).into()),
+    });
     for name in template.examples() {
         let bytes = brinell_studio::example_file(name).expect("templates name the studio's files");
         let bytes = match template {
@@ -150,7 +173,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
 /// which nobody edits, is made anew.
 fn write(files: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
     for (path, bytes) in files {
-        let schema = path.ends_with(SCHEMA) && is_schema(path);
+        let schema = (path.ends_with(SCHEMA) || path.ends_with(MACHINE_SCHEMA)) && is_schema(path);
         let same = || std::fs::read(path).is_ok_and(|there| there == *bytes);
         let scenario = path == &files[files.len() - 1].0;
         if path.exists() && !force && !schema && (scenario || !same()) {
@@ -173,7 +196,7 @@ fn write(files: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
 fn is_schema(path: &Path) -> bool {
     let text = std::fs::read(path).unwrap_or_default();
     let json = serde_json::from_slice::<serde_json::Value>(&text).unwrap_or_default();
-    json["title"] == "brinell scenario"
+    json["title"] == "brinell scenario" || json["title"] == "brinell machine"
 }
 
 /// The template with every key in it.

@@ -6,7 +6,7 @@ use brinell::plausibility::{converted, doubtful, unsettled};
 use brinell::result::Parts;
 use brinell::result::fields;
 use brinell::signal::Indicator;
-use brinell::simulate::End;
+use brinell::simulate::{End, Simulation};
 use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
@@ -32,7 +32,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
     printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
-    printed.extend(sensor_lines(findings));
+    printed.extend(sensor_lines(simulation, findings));
     printed.extend(healthy_line(parts));
     printed.extend(spread.map(super::spread::lines).into_iter().flatten());
     let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
@@ -59,10 +59,12 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
 }
 
 /// What the sensor read, a line for each of its channels.
-fn sensor_lines(findings: &Findings) -> Vec<String> {
+fn sensor_lines(simulation: &Simulation, findings: &Findings) -> Vec<String> {
+    let is_sensor = |name: &str| simulation.filtered().iter().any(|c| c.name == name && c.sensor_axis().is_some());
     let mut printed = Vec::new();
     for channel in &findings.channels {
-        if channel.kind != Kind::AntiAliased || !channel.name.starts_with("sensor_") {
+        let is_looked_at = is_sensor(&channel.name) || channel.name == findings.sensor;
+        if channel.kind != Kind::AntiAliased || !is_looked_at {
             continue;
         }
         let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {

@@ -4,6 +4,7 @@ pub mod chapters;
 mod contacts;
 mod healthy;
 mod lead;
+mod machine;
 mod motion;
 mod orders;
 mod sensor;
@@ -13,9 +14,9 @@ mod tables;
 use crate::data::Signals;
 use crate::frame::THINNED;
 use crate::number::short;
-use crate::page::Page;
+use crate::page::{Chapter, Page};
 use brinell::result::Parts;
-use brinell::scenario::{ModelKind, Scenario, Speed};
+use brinell::scenario::{Bearing, ModelKind, Scenario, Speed};
 use brinell::simulate::End;
 use brinell_damage::Photo;
 use brinell_study::campaign::Level;
@@ -39,7 +40,8 @@ impl Page {
             view.photo.clone_from(photo);
         }
         let signals = Arc::new(of_signals(parts));
-        let mut all = chapters::signals(&signals);
+        let mut all: Vec<Chapter> = machine::chapter(parts).into_iter().collect();
+        all.extend(chapters::signals(&signals));
         all.push(chapters::spectrogram(spectrogram(parts, sensor_label(parts))));
         all.extend(chapters::sensor(sensor::view(parts)));
         let passes = parts.findings.passes.best();
@@ -106,14 +108,23 @@ fn speed(scenario: &Scenario) -> String {
 }
 
 fn subtitle(scenario: &Scenario) -> String {
-    let b = &scenario.bearing;
-    let bearing = b.preset.clone().unwrap_or_else(|| {
-        format!("{} rows of {} {}s, {} mm pitch", b.rows, b.rollers_per_row, b.element.word(), b.pitch_diameter_mm)
-    });
+    let name = |b: &Bearing| {
+        b.preset.clone().unwrap_or_else(|| {
+            format!("{} rows of {} {}s, {} mm pitch", b.rows, b.rollers_per_row, b.element.word(), b.pitch_diameter_mm)
+        })
+    };
+    let bearing = match &scenario.machine {
+        None => name(&scenario.bearing),
+        Some(machine) => {
+            let all: Vec<String> = machine.each(scenario).map(|(_, alone)| name(&alone.bearing)).collect();
+            format!("a shaft on {}", all.join(" and "))
+        }
+    };
+    let of = scenario.machine.as_ref().map_or(String::new(), |machine| format!(" of bearing {}", machine.lead + 1));
     let damage = match scenario.defects.len() {
         0 => "healthy".to_owned(),
-        1 => "one defect".to_owned(),
-        n => format!("{n} defects"),
+        1 => format!("one defect{of}"),
+        n => format!("{n} defects{of}"),
     };
     let load = scenario.operation.load_n;
     let model = match scenario.simulation.model {
@@ -121,5 +132,9 @@ fn subtitle(scenario: &Scenario) -> String {
         ModelKind::Lumped => "lumped model",
         ModelKind::Tilting => "tilting model",
     };
-    format!("{bearing}, {damage}, {}, load {} N, {model}", speed(scenario), short(load[0].hypot(load[1]), 4))
+    let load = match scenario.machine {
+        Some(_) => String::new(),
+        None => format!("load {} N, ", short(load[0].hypot(load[1]), 4)),
+    };
+    format!("{bearing}, {damage}, {}, {load}{model}", speed(scenario))
 }

@@ -3,8 +3,9 @@
 use super::machine::rpm;
 use super::{Derived, DerivedBearing, DerivedMachine};
 use crate::bearing::rating::static_rating;
+use crate::coefficients::Coefficients;
 use crate::lamina::{Distribution, Peak, Rating};
-use crate::machine::{Coefficients, Mode, Whirl};
+use crate::machine::{Mode, Whirl};
 use crate::model::Model;
 use crate::plausibility::before;
 use crate::pressure::{pressures, static_limit};
@@ -60,7 +61,7 @@ pub fn machine_to_json(scenario: &Scenario, of: &DerivedMachine) -> Value {
         json["force_n"] = json!(one.carried.force);
         json["moment_nm"] = json!(one.carried.moment);
         json["misalignment_mrad"] = json!(one.carried.misalignment.map(|slope| 1e3 * slope));
-        let Coefficients { stiffness, damping } = one.coefficients();
+        let Coefficients { stiffness, damping, .. } = one.coefficients(of.top_speed);
         json["stiffness_n_per_m"] = json!(stiffness);
         json["damping_ns_per_m"] = json!(damping);
         json

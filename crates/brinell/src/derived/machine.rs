@@ -1,10 +1,11 @@
 //! What follows from a machine before anything moves: what each bearing carries, natural frequencies, critical speeds.
 
 use super::Derived;
-use crate::machine::{Carried, Coefficients, Equations, Linear, Mode, Whirl};
+use crate::coefficients::{Coefficients, coefficients};
+use crate::machine::{Carried, Equations, Linear, Mode, Port, Whirl};
 use crate::model::Model;
 use crate::plausibility::carried;
-use crate::scenario::{ContactDamping, Scenario};
+use crate::scenario::Scenario;
 use crate::simulate::Simulation;
 use crate::statics::NoBalance;
 use std::f64::consts::TAU;
@@ -32,7 +33,7 @@ pub struct DerivedMachine {
     /// Highest speed, rad/s.
     pub top_speed: f64,
     equations: Equations,
-    linear: Vec<Linear>,
+    ports: Vec<Port>,
 }
 
 impl DerivedMachine {
@@ -50,53 +51,52 @@ impl DerivedMachine {
             model,
             carried,
         };
-        let bearings: Vec<DerivedBearing> = each.map(bearing).collect();
-        let coefficients: Vec<Coefficients> = bearings.iter().map(DerivedBearing::coefficients).collect();
-        let (equations, linear) = machine.linearised(&coefficients);
+        let (equations, ports) = machine.linearised();
         Ok(Self {
             weight: machine.shaft_weight(),
             top_speed: simulation.model().rotation.max_speed(),
-            bearings,
+            bearings: each.map(bearing).collect(),
             equations,
-            linear,
+            ports,
         })
     }
 
-    /// Natural motions at a speed, rad/s, by rising frequency: of the shaft on the bearings' stiffness at the load that they carry, of
-    /// housings and of rings on supports of their own. The bearings' stiffness is that at rest at every speed.
-    pub fn modes(&self, speed: f64) -> Vec<Mode> {
-        self.equations.modes(&self.linear, speed)
+    /// The bearings at a speed, rad/s: stiffness and damping at the load that they carry at rest.
+    fn linear(&self, speed: f64) -> Vec<Linear> {
+        let one = |(bearing, port): (&DerivedBearing, &Port)| {
+            let Coefficients { stiffness, damping, .. } = bearing.coefficients(speed);
+            Linear { port: port.clone(), stiffness, damping }
+        };
+        self.bearings.iter().zip(&self.ports).map(one).collect()
     }
 
-    /// Speeds, rad/s and rising, that a natural frequency follows, without damping.
+    /// Natural motions at a speed, rad/s, by rising frequency: of the shaft on the bearings' stiffness at the load that they carry, of
+    /// housings and of rings on supports of their own.
+    pub fn modes(&self, speed: f64) -> Vec<Mode> {
+        self.equations.modes(&self.linear(speed), speed)
+    }
+
+    /// Speeds, rad/s and rising, that a natural frequency follows, without damping; bearings are as stiff as at the top speed.
     pub fn critical_speeds(&self) -> Vec<(f64, Whirl)> {
-        self.equations.critical_speeds(&self.linear)
+        self.equations.critical_speeds(&self.linear(self.top_speed))
+    }
+
+    /// The lines of a Campbell diagram at these speeds, rad/s: `count` of them, an entry a speed.
+    pub fn campbell(&self, speeds: &[f64], count: usize) -> Vec<Vec<Option<Mode>>> {
+        self.equations.campbell(|speed| self.linear(speed), speeds, count)
     }
 }
 
 impl DerivedBearing {
-    /// Stiffness and damping between its rings at the load that it carries. Contacts that are damped by tau K in series act as tau times the
-    /// bearing's stiffness; of constant dampers two in series act at the one end as a half of each.
-    pub fn coefficients(&self) -> Coefficients {
+    /// Stiffness and damping between its rings at the load that it carries, without damage, at a speed of its inner ring, rad/s.
+    pub fn coefficients(&self, speed: f64) -> Coefficients {
+        if self.model.tilt.is_none() {
+            return coefficients(&self.model, self.carried.force, speed).unwrap_or_default();
+        }
+        // Where rings tilt, those of the static balance at the top speed.
         let stiffness = self.derived.statics.as_ref().map_or([[0.0; 2]; 2], |zone| zone.stiffness);
-        let time = match self.scenario.contact.damping {
-            ContactDamping::Time { us } => 1e-6 * us,
-            // A time that does at the heaviest contact what the damper does.
-            ContactDamping::Constant { ns_per_m } => {
-                let [inner, outer] = self.derived.contact_stiffness;
-                2.0 * ns_per_m / (inner + outer).max(f64::MIN_POSITIVE)
-            }
-        };
-        Coefficients { stiffness, damping: stiffness.map(|row| row.map(|k| time * k)) }
-    }
-
-    /// Stiffness along the load that it carries, N/m.
-    pub fn stiffness_along_load(&self) -> f64 {
-        let [x, y] = self.carried.force;
-        let size = x.hypot(y).max(f64::MIN_POSITIVE);
-        let along = [x / size, y / size];
-        let k = self.coefficients().stiffness;
-        (0..2).map(|i| (0..2).map(|j| along[i] * k[i][j] * along[j]).sum::<f64>()).sum()
+        let time = self.scenario.contact.damping.time_us().map_or(0.0, |us| 1e-6 * us);
+        Coefficients { stiffness, damping: stiffness.map(|row| row.map(|k| time * k)), ..Coefficients::default() }
     }
 }
 

@@ -45,6 +45,11 @@ pub fn template() -> String {
 /// Every problem of the text.
 pub fn explained(text: &str) -> Result<String, Vec<Problem>> {
     let loaded = read(text, &[])?;
+    if loaded.scenario.machine.is_some() {
+        let message =
+            "only the file of one bearing is written with every key explained; a machine's schema explains its keys";
+        return Err(vec![Problem::error("shaft", message)]);
+    }
     let style = Style { provenance: by_key(&loaded.provenance), template: true };
     Ok(HEAD.to_string() + &write(&loaded.scenario, style))
 }

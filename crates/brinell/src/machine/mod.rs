@@ -17,9 +17,8 @@ mod structure;
 
 pub use assembly::{Machine, Mount, Point, Seated};
 pub use balance::{Balance, Carried};
-pub use brinell_shaft::{Disc, Equations, Linear, Material, Mode, Part, Spring, Whirl};
+pub use brinell_shaft::{Disc, Equations, Linear, Material, Mode, Part, Port, Spring, Whirl};
 pub use motion::{Evaluated, MachineMotion, Parts};
 pub(crate) use of_scenario::{bearings, machine};
 pub use plan::{Housing, OnShaft, Plan, PlanError, Shaft};
-pub use rotor::Coefficients;
 pub use structure::{Row, Seat, Structure};

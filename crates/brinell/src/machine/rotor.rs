@@ -2,21 +2,12 @@
 
 use super::assembly::{Machine, Mount};
 use super::structure::Row;
-use brinell_shaft::{Equations, Linear, Port};
-
-/// Stiffness (N/m) and damping (N s/m) of a bearing between its rings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Coefficients {
-    /// K.
-    pub stiffness: [[f64; 2]; 2],
-    /// C.
-    pub damping: [[f64; 2]; 2],
-}
+use brinell_shaft::{Equations, Port};
 
 impl Machine {
-    /// Equations of the shaft, of housings and of outer rings on supports of their own, in their modes, and each bearing as a spring and a
-    /// damper between two of their places. Bearings hold no tilt here.
-    pub fn linearised(&self, bearings: &[Coefficients]) -> (Equations, Vec<Linear>) {
+    /// Equations of the shaft, of housings and of outer rings on supports of their own, in their modes, and of each bearing the place that
+    /// its stiffness and damping act at: the inner ring's displacement less the outer one's. Bearings hold no tilt here.
+    pub fn linearised(&self) -> (Equations, Vec<Port>) {
         // In a plane a structure has half of its coordinates, and a ring on its own support one.
         let mut starts = Vec::new();
         let mut size = 0;
@@ -45,8 +36,8 @@ impl Machine {
                 row.iter().enumerate().for_each(|(j, g)| equations.gyroscopic[(start + k, start + j)] = *g);
             }
         }
-        let mut linear = Vec::new();
-        for ((seated, own), of) in self.bearings.iter().zip(&alone).zip(bearings) {
+        let mut ports = Vec::new();
+        for (seated, own) in self.bearings.iter().zip(&alone) {
             let mut port = Port::zeros(size);
             let mut add = |mount: &Mount, sign: f64| {
                 let structure = &self.structures[mount.structure];
@@ -63,8 +54,8 @@ impl Machine {
                 equations.stiffness[(k, k)] = support.stiffness / mass;
                 equations.damping[(k, k)] = support.damping / mass;
             }
-            linear.push(Linear { port, stiffness: of.stiffness, damping: of.damping });
+            ports.push(port);
         }
-        (equations, linear)
+        (equations, ports)
     }
 }

@@ -160,22 +160,21 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
     Roller { r: 0.0, inner: force, outer: force, tangent, energy, along: [[cos, sin]; 2], push: [[0.0; 2]; 2] }
 }
 
-/// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
-fn between_raceways(model: &Model, problem: &Problem, (slot, held): (usize, Option<Turned>), x: &Offsets) -> Roller {
+/// One roller between the rings at the offsets `x`.
+fn between<'a>(model: &'a Model, problem: &Problem, (slot, held): (usize, Option<Turned>), x: &Offsets) -> Between<'a> {
     let angles = angles(problem, slot);
-    let (sin, cos) = angles.orbit.sin_cos();
-    let between = Between {
-        model,
-        slot,
-        angles,
-        held,
-        sides: rings_at(model, (sin, cos), [[x[0], x[1]], [x[2], x[3]]]),
-        own: own_force(model, problem, slot),
-    };
+    let rings = [[x[0], x[1]], [x[2], x[3]]];
+    let sides = rings_at(model, angles.orbit.sin_cos(), rings);
+    Between { model, slot, angles, held, sides, own: own_force(model, problem, slot) }
+}
+
+/// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
+fn between_raceways(model: &Model, problem: &Problem, at: (usize, Option<Turned>), x: &Offsets) -> Roller {
+    let between = between(model, problem, at, x);
     let r = between.equilibrium();
     let (seen, contacts) = between.contacts(r);
     let [(q_in, k_in), (q_out, k_out)] = contacts.map(|c| (c.force, c.tangent));
-    let along = seen.map(|Seen { normal: [n_r, n_t], .. }| [cos * n_r - sin * n_t, sin * n_r + cos * n_t]);
+    let along = between.along(&seen);
     Roller {
         along,
         r,
@@ -190,6 +189,30 @@ fn between_raceways(model: &Model, problem: &Problem, (slot, held): (usize, Opti
             [-n_y * per_rho, n_x * per_rho]
         }),
     }
+}
+
+/// Damping of the bearing between its rings about a balance, N s/m, along the directions in which [`Balance::stiffness`] is.
+///
+/// The elements are condensed out as there. Contacts k_i + s c_i and k_o + s c_o in series are, to first order in s, the stiffness
+/// k_i k_o/(k_i + k_o) and the damping (k_o^2 c_i + k_i^2 c_o)/(k_i + k_o)^2; an element's inertia comes with s^2.
+pub(super) fn damping(model: &Model, problem: &Problem, balance: &Balance) -> [[f64; 2]; 2] {
+    let x = [balance.inner[0], balance.inner[1], balance.outer[0], balance.outer[1]];
+    let mut all = [[0.0; 2]; 2];
+    for slot in 0..model.layout.rollers() {
+        let between = between(model, problem, (slot, None), &x);
+        let (r, deltas) = (balance.r[slot], between.deformations(balance.r[slot]));
+        let (seen, contacts) = between.contacts(r);
+        let [(k_in, c_in), (k_out, c_out)] = SIDES.map(|side| {
+            let (k, delta) = (contacts[side as usize].tangent, deltas[side as usize]);
+            if delta > 0.0 { (k, model.contact(side).damping.of(k, delta)) } else { (0.0, 0.0) }
+        });
+        if k_in + k_out > 0.0 {
+            let damper = (k_out * k_out * c_in + k_in * k_in * c_out) / (k_in + k_out).powi(2);
+            let [e, _] = between.along(&seen);
+            (0..2).for_each(|i| (0..2).for_each(|j| all[i][j] += damper * e[i] * e[j]));
+        }
+    }
+    all
 }
 
 /// Both rings as a roller meets them.
@@ -275,6 +298,12 @@ struct Between<'a> {
 }
 
 impl Between<'_> {
+    /// The contacts' normals in the plane, inner and outer.
+    fn along(&self, seen: &[Seen; 2]) -> [[f64; 2]; 2] {
+        let (sin, cos) = self.angles.orbit.sin_cos();
+        seen.each_ref().map(|Seen { normal: [n_r, n_t], .. }| [cos * n_r - sin * n_t, sin * n_r + cos * n_t])
+    }
+
     /// The roller's angles as seen from the centre of a ring. Where nothing is damaged they do not matter.
     fn angles(&self, side: Side, seen: &Seen) -> Angles {
         if self.model.defects.is_empty() && self.model.custom.contact.is_none() {
