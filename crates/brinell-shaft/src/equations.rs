@@ -114,24 +114,22 @@ impl Equations {
             |now: &[Option<Motion>]| -> Vec<_> { now.iter().map(|motion| motion.as_ref().map(|m| m.0)).collect() };
         let mut columns = vec![told(&now)];
         for pair in speeds.windows(2) {
-            now = self.follow(&at, now, [pair[0], pair[1]], HALVINGS);
+            now = self.follow(&at, now, (pair[0], pair[1], &at(pair[1])), HALVINGS);
             columns.push(told(&now));
         }
         (0..now.len()).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
     }
 
-    /// Motions from one speed to another, by way of the speed between them where one is not found again.
+    /// Motions from one speed to another, of all that there are, by way of the speed between them where one is not found again.
     fn follow(
         &self,
         at: &impl Fn(f64) -> Vec<Motion>,
         now: Vec<Option<Motion>>,
-        [from, to]: [f64; 2],
+        (from, to, there): (f64, f64, &[Motion]),
         halvings: u32,
     ) -> Vec<Option<Motion>> {
-        let mut there: Vec<_> = at(to).into_iter().map(Some).collect();
         let mut pairs = Vec::new();
-        for (j, motion) in there.iter().enumerate() {
-            let Some((_, shape)) = motion else { continue };
+        for (j, (_, shape)) in there.iter().enumerate() {
             let heavy = self.momentum(shape);
             for (i, before) in now.iter().enumerate() {
                 let Some((_, before)) = before else { continue };
@@ -141,18 +139,19 @@ impl Equations {
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
         let enough = SAME_MOTION[usize::from(halvings == 0)];
+        let mut free: Vec<_> = there.iter().map(Some).collect();
         let mut found: Vec<_> = now.iter().map(|_| None).collect();
         for (_, i, j) in pairs.into_iter().take_while(|pair| pair.0 > enough) {
             if found[i].is_none() {
-                found[i] = there[j].take();
+                found[i] = free[j].take();
             }
         }
         if halvings > 0 && now.iter().zip(&found).any(|(before, after)| before.is_some() && after.is_none()) {
             let between = 0.5 * (from + to);
-            let half = self.follow(at, now, [from, between], halvings - 1);
-            return self.follow(at, half, [between, to], halvings - 1);
+            let half = self.follow(at, now, (from, between, &at(between)), halvings - 1);
+            return self.follow(at, half, (between, to, there), halvings - 1);
         }
-        found
+        found.into_iter().map(|motion| motion.cloned()).collect()
     }
 
     /// Modes with their shapes.
