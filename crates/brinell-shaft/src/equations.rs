@@ -1,6 +1,6 @@
 //! Equations of motion of a plane of a shaft, and what they say with linear bearings.
 
-use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, SymmetricEigen};
 use std::f64::consts::TAU;
 
 /// Matrices of one plane; the other has the same.
@@ -48,7 +48,7 @@ pub struct Mode {
     pub frequency: f64,
     /// Share of critical damping.
     pub damping_ratio: f64,
-    /// Of most of the shaft; at rest either.
+    /// Of most of the shaft; at rest one forward and one backward on round bearings, else either.
     pub whirl: Whirl,
 }
 
@@ -66,13 +66,6 @@ const SAME_MOTION: [f64; 2] = [0.8, 0.4];
 const HALVINGS: u32 = 5;
 
 impl Whirl {
-    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)): the coordinates of X, then those of Y, and M times these.
-    fn of(shape: &Shape, momentum: &Shape) -> Self {
-        let n = shape.len() / 2;
-        let turned = shape.rows(0, n).dotc(&momentum.rows(n, n)).im;
-        if turned <= 0.0 { Self::Forward } else { Self::Backward }
-    }
-
     fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,
@@ -174,21 +167,47 @@ impl Equations {
         let scale = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
         let mut swinging: Vec<_> = rates.iter().copied().filter(|rate| rate.im > 1e-9 * scale).collect();
         swinging.sort_by(|a, b| a.im.total_cmp(&b.im));
-        let mut motions: Vec<Motion> = Vec::new();
+        let mut shapes: Vec<Shape> = Vec::new();
         for (k, &rate) in swinging.iter().enumerate() {
-            // Motions of one rate may be any two of theirs: these are two at right angles.
             let twins = (0..k).rev().take_while(|&j| (swinging[j] - rate).norm() < 1e-6 * rate.norm());
-            let twins: Vec<_> = twins.map(|j| [motions[j].1.clone(), self.momentum(&motions[j].1)]).collect();
-            let shape = shape([&mass, &damping, &stiffness], rate, &twins);
-            let whirl = Whirl::of(&shape, &self.momentum(&shape));
+            let twins: Vec<_> = twins.map(|j| [shapes[j].clone(), self.momentum(&shapes[j])]).collect();
+            let mut shape = shape([&mass, &damping, &stiffness], rate, &twins);
+            if let [[twin, _]] = &twins[..] {
+                [shapes[k - 1], shape] = self.parted([twin, &shape]);
+            }
+            shapes.push(shape);
+        }
+        let mode = |(rate, shape): (Complex<f64>, Shape)| {
+            let whirl = self.whirl(&shape);
             let mode = Mode {
                 frequency: rate.im / TAU,
                 damping_ratio: -rate.re / rate.norm(),
                 whirl: if w < 0.0 { whirl.reversed() } else { whirl },
             };
-            motions.push((mode, shape));
-        }
-        motions
+            (mode, shape)
+        };
+        swinging.into_iter().zip(shapes).map(mode).collect()
+    }
+
+    /// Any two motions of one rate and at right angles are others just as well: those that go round most, either way. As speed parts them,
+    /// on round bearings, they are what is there at rest.
+    fn parted(&self, [a, b]: [&Shape; 2]) -> [Shape; 2] {
+        let [a, b] = [a, b].map(|u| u / Complex::from(u.dotc(&self.momentum(u)).re.sqrt()));
+        let of = |u, v| self.turned(u, v);
+        let ways = Matrix2::new(of(&a, &a), of(&a, &b), of(&b, &a), of(&b, &b)).symmetric_eigen().eigenvectors;
+        [0, 1].map(|k| &a * ways[(0, k)] + &b * ways[(1, k)])
+    }
+
+    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)).
+    fn whirl(&self, shape: &Shape) -> Whirl {
+        if self.turned(shape, shape).re <= 0.0 { Whirl::Forward } else { Whirl::Backward }
+    }
+
+    /// How far motions go round, as a Hermitian form: of a motion and itself below 0 where that is from X to Y.
+    fn turned(&self, a: &Shape, b: &Shape) -> Complex<f64> {
+        let (n, heavy) = (self.size(), self.momentum(b));
+        let crossed = |from, to| a.rows(from, n).dotc(&heavy.rows(to, n));
+        (crossed(0, n) - crossed(n, 0)) / Complex::new(0.0, 2.0)
     }
 
     /// M times both planes of a shape.
@@ -223,7 +242,7 @@ impl Equations {
         let mut speeds: Vec<_> = found
             .filter(|(value, _)| **value > 1e-12 * largest)
             .map(|(value, shape)| (value, shape.into_owned()))
-            .map(|(value, shape)| (value.sqrt().recip(), Whirl::of(&shape, &self.momentum(&shape))))
+            .map(|(value, shape)| (value.sqrt().recip(), self.whirl(&shape)))
             .collect();
         speeds.sort_by(|a, b| a.0.total_cmp(&b.0));
         speeds
