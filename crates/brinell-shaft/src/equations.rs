@@ -1,6 +1,6 @@
 //! Equations of motion of a plane of a shaft, and what they say with linear bearings.
 
-use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, SymmetricEigen};
 use std::f64::consts::TAU;
 
 /// Matrices of one plane; the other has the same.
@@ -55,7 +55,7 @@ pub struct Mode {
     pub frequency: f64,
     /// Share of critical damping.
     pub damping_ratio: f64,
-    /// Of most of the shaft; at rest either.
+    /// Of most of the shaft; at rest one forward and one backward on round bearings, else either.
     pub whirl: Whirl,
 }
 
@@ -73,13 +73,6 @@ const SAME_MOTION: [f64; 2] = [0.8, 0.4];
 const HALVINGS: u32 = 5;
 
 impl Whirl {
-    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)): the coordinates of X, then those of Y, and M times these.
-    fn of(shape: &Shape, momentum: &Shape) -> Self {
-        let n = shape.len() / 2;
-        let turned = shape.rows(0, n).dotc(&momentum.rows(n, n)).im;
-        if turned <= 0.0 { Self::Forward } else { Self::Backward }
-    }
-
     fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,
@@ -121,24 +114,22 @@ impl Equations {
             |now: &[Option<Motion>]| -> Vec<_> { now.iter().map(|motion| motion.as_ref().map(|m| m.0)).collect() };
         let mut columns = vec![told(&now)];
         for pair in speeds.windows(2) {
-            now = self.follow(&at, now, [pair[0], pair[1]], HALVINGS);
+            now = self.follow(&at, now, (pair[0], pair[1], &at(pair[1])), HALVINGS);
             columns.push(told(&now));
         }
         (0..now.len()).map(|k| columns.iter().map(|column| column[k]).collect()).collect()
     }
 
-    /// Motions from one speed to another, by way of the speed between them where one is not found again.
+    /// Motions from one speed to another, of all that there are, by way of the speed between them where one is not found again.
     fn follow(
         &self,
         at: &impl Fn(f64) -> Vec<Motion>,
         now: Vec<Option<Motion>>,
-        [from, to]: [f64; 2],
+        (from, to, there): (f64, f64, &[Motion]),
         halvings: u32,
     ) -> Vec<Option<Motion>> {
-        let mut there: Vec<_> = at(to).into_iter().map(Some).collect();
         let mut pairs = Vec::new();
-        for (j, motion) in there.iter().enumerate() {
-            let Some((_, shape)) = motion else { continue };
+        for (j, (_, shape)) in there.iter().enumerate() {
             let heavy = self.momentum(shape);
             for (i, before) in now.iter().enumerate() {
                 let Some((_, before)) = before else { continue };
@@ -148,18 +139,19 @@ impl Equations {
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
         let enough = SAME_MOTION[usize::from(halvings == 0)];
+        let mut free: Vec<_> = there.iter().map(Some).collect();
         let mut found: Vec<_> = now.iter().map(|_| None).collect();
         for (_, i, j) in pairs.into_iter().take_while(|pair| pair.0 > enough) {
             if found[i].is_none() {
-                found[i] = there[j].take();
+                found[i] = free[j].take();
             }
         }
         if halvings > 0 && now.iter().zip(&found).any(|(before, after)| before.is_some() && after.is_none()) {
             let between = 0.5 * (from + to);
-            let half = self.follow(at, now, [from, between], halvings - 1);
-            return self.follow(at, half, [between, to], halvings - 1);
+            let half = self.follow(at, now, (from, between, &at(between)), halvings - 1);
+            return self.follow(at, half, (between, to, there), halvings - 1);
         }
-        found
+        found.into_iter().map(|motion| motion.cloned()).collect()
     }
 
     /// Modes with their shapes.
@@ -182,21 +174,47 @@ impl Equations {
         let scale = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
         let mut swinging: Vec<_> = rates.iter().copied().filter(|rate| rate.im > 1e-9 * scale).collect();
         swinging.sort_by(|a, b| a.im.total_cmp(&b.im));
-        let mut motions: Vec<Motion> = Vec::new();
+        let mut shapes: Vec<Shape> = Vec::new();
         for (k, &rate) in swinging.iter().enumerate() {
-            // Motions of one rate may be any two of theirs: these are two at right angles.
             let twins = (0..k).rev().take_while(|&j| (swinging[j] - rate).norm() < 1e-6 * rate.norm());
-            let twins: Vec<_> = twins.map(|j| [motions[j].1.clone(), self.momentum(&motions[j].1)]).collect();
-            let shape = shape([&mass, &damping, &stiffness], rate, &twins);
-            let whirl = Whirl::of(&shape, &self.momentum(&shape));
+            let twins: Vec<_> = twins.map(|j| [shapes[j].clone(), self.momentum(&shapes[j])]).collect();
+            let mut shape = shape([&mass, &damping, &stiffness], rate, &twins);
+            if let [[twin, _]] = &twins[..] {
+                [shapes[k - 1], shape] = self.parted([twin, &shape]);
+            }
+            shapes.push(shape);
+        }
+        let mode = |(rate, shape): (Complex<f64>, Shape)| {
+            let whirl = self.whirl(&shape);
             let mode = Mode {
                 frequency: rate.im / TAU,
                 damping_ratio: -rate.re / rate.norm(),
                 whirl: if w < 0.0 { whirl.reversed() } else { whirl },
             };
-            motions.push((mode, shape));
-        }
-        motions
+            (mode, shape)
+        };
+        swinging.into_iter().zip(shapes).map(mode).collect()
+    }
+
+    /// Any two motions of one rate and at right angles are others just as well: those that go round most, either way. As speed parts them,
+    /// on round bearings, they are what is there at rest.
+    fn parted(&self, [a, b]: [&Shape; 2]) -> [Shape; 2] {
+        let [a, b] = [a, b].map(|u| u / Complex::from(u.dotc(&self.momentum(u)).re.sqrt()));
+        let of = |u, v| self.turned(u, v);
+        let ways = Matrix2::new(of(&a, &a), of(&a, &b), of(&b, &a), of(&b, &b)).symmetric_eigen().eigenvectors;
+        [0, 1].map(|k| &a * ways[(0, k)] + &b * ways[(1, k)])
+    }
+
+    /// Of a shaft that turns from X to Y and moves as Re(u exp(i w t)).
+    fn whirl(&self, shape: &Shape) -> Whirl {
+        if self.turned(shape, shape).re <= 0.0 { Whirl::Forward } else { Whirl::Backward }
+    }
+
+    /// How far motions go round, as a Hermitian form: of a motion and itself below 0 where that is from X to Y.
+    fn turned(&self, a: &Shape, b: &Shape) -> Complex<f64> {
+        let (n, heavy) = (self.size(), self.momentum(b));
+        let crossed = |from, to| a.rows(from, n).dotc(&heavy.rows(to, n));
+        (crossed(0, n) - crossed(n, 0)) / Complex::new(0.0, 2.0)
     }
 
     /// M times both planes of a shape.
@@ -231,7 +249,7 @@ impl Equations {
         let mut speeds: Vec<_> = found
             .filter(|(value, _)| **value > 1e-12 * largest)
             .map(|(value, shape)| (value, shape.into_owned()))
-            .map(|(value, shape)| (value.sqrt().recip(), Whirl::of(&shape, &self.momentum(&shape))))
+            .map(|(value, shape)| (value.sqrt().recip(), self.whirl(&shape)))
             .collect();
         speeds.sort_by(|a, b| a.0.total_cmp(&b.0));
         speeds

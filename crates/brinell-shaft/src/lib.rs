@@ -15,16 +15,18 @@
 //! let part = |length, outer_diameter, inner_diameter| Part { length, outer_diameter, inner_diameter };
 //! let disc = Disc::of_cylinder(0.5, &part(0.07, 0.28, 0.05), steel.density);
 //! let ends = [0.0, 1.5];
-//! let beam = Beam::new(&steel, &[part(1.5, 0.05, 0.0)], (&[disc], &[]), &ends, 0.05).ok_or("beyond the shaft")?;
+//! let beam = Beam::new(&steel, &[part(1.5, 0.05, 0.0)], (&[disc], &[]), &ends, 0.25).ok_or("beyond the shaft")?;
 //! let bearing = |z| {
 //!     let port = beam.port(z).ok_or("no node")?;
 //!     Ok(Linear { port, stiffness: [[1e6, 0.0], [0.0, 1e6]], damping: [[100.0, 0.0], [0.0, 100.0]] })
 //! };
 //! let bearings = ends.map(bearing).into_iter().collect::<Result<Vec<_>, &str>>()?;
-//! // A Campbell diagram's column at 4000 r/min, and the first critical speed that unbalance excites, r/min.
+//! // A Campbell diagram's column at 4000 r/min and its first lines from rest on, and the first critical speed that unbalance excites, r/min.
 //! let per_rpm = std::f64::consts::PI / 30.0;
 //! let modes = beam.equations.modes(&bearings, 4000.0 * per_rpm);
 //! assert_eq!(modes[0].whirl, Whirl::Backward);
+//! let lines = beam.equations.campbell(|_| bearings.clone(), &[0.0, 2000.0 * per_rpm, 4000.0 * per_rpm], 4);
+//! assert!(lines.iter().any(|line| line[2] == Some(modes[0])));
 //! let critical = beam.equations.critical_speeds(&bearings);
 //! let first = critical.iter().find(|(_, whirl)| *whirl == Whirl::Forward).map(|(w, _)| w / per_rpm);
 //! assert_eq!(first.map(f64::round), Some(1162.0));
