@@ -81,6 +81,8 @@ with open(Path(__file__).parents[2] / "crates/brinell-shaft/tests/campbell.csv",
         machine = rotor(held, inner=0.03)
         for w in SPEEDS:
             for k, (hz, ratio, whirl) in enumerate(bending(machine, w)[:6]):
+                # At rest on these nothing couples the planes: which way a motion goes round is round-off.
+                whirl = "None" if name == "by_speed" and w == 0.0 else whirl
                 print(f"{name},{w * 30 / np.pi:.0f},{k},{hz:.7f},{ratio:.7e},{whirl}", file=table)
 
 # The rotor of Nelson and McVaugh (1976): critical speeds, and how far these are open by the rounding of what is printed of it.
