@@ -8,6 +8,7 @@ use crate::request::Request;
 use brinell::analysis::DefectOrders;
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::document::Loaded;
+use brinell::scenario::Scenario;
 
 /// Orders over the shaft's frequency `shaft` (Hz), of the bearing asked about where there is one.
 pub(crate) fn orders(
@@ -39,8 +40,13 @@ pub(crate) fn orders(
             Some(Asked::Name(name) | Asked::Scenario { name, .. }) => called.text("bearing", name),
             None => "the bearing given".into(),
         };
-        let own = orders_of(&run.scenario.bearing);
-        orders.doubts.extend(other_bearing(&asked, &orders.value, &own, request.tolerance()));
+        let bearings = run.scenario.bearings();
+        let other = |of: &Scenario| other_bearing(&asked, &orders.value, &orders_of(&of.bearing), request.tolerance());
+        let others: Vec<String> = bearings.iter().filter_map(other).collect();
+        // Of a machine it may be any.
+        if others.len() == bearings.len() {
+            orders.doubts.extend(others.into_iter().next());
+        }
     }
     Ok(orders)
 }
@@ -92,7 +98,14 @@ fn base(
     }
     Ok(match run.filter(|_| !request.has_frequencies()) {
         Some(run) => {
-            let place = "the scenario of the run in the file".to_owned();
+            let place = match &run.scenario.machine {
+                None => "the scenario of the run in the file".to_owned(),
+                Some(machine) => {
+                    let name =
+                        run.scenario.bearing.preset.as_deref().map_or(String::new(), |name| format!(" ({name})"));
+                    format!("bearing {}{name} of the machine of the run in the file", machine.lead + 1)
+                }
+            };
             (orders_of(&run.scenario.bearing), Source::File(place.clone()), Some(place))
         }
         None => (DefectOrders::default(), Source::Given, None),

@@ -3,7 +3,6 @@
 use crate::known::{Known, Source};
 use crate::problem::{Problem, Question};
 use crate::request::Request;
-use brinell::channel::SENSOR;
 use brinell::document::Loaded;
 use brinell_io::{Channel, SignalFile, names};
 
@@ -49,7 +48,7 @@ pub(crate) fn channel(
         return Ok(Ok((Known::by(name, Source::Given), channel)));
     }
     if let Some(run) = run {
-        let along = SENSOR[run.scenario.operation.axis_of_load()];
+        let along = run.scenario.shown_channel();
         if let Some(found) = file.channels().iter().find(|c| c.name == along) {
             let (known, channel) = named(found, Source::File("the scenario of the run in the file".into()));
             return Ok(Ok((known.noted(format!("channel {along}, along the load, as none was named")), channel)));

@@ -96,6 +96,7 @@ impl Diagnosis {
     /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of
     /// it.
     pub(crate) fn contradicted(analysis: &Analysis, run: &Loaded) -> Option<String> {
+        let bearings = run.scenario.bearings();
         let is_damaged = |component: Component| {
             let on = |surface: Surface| match component {
                 Component::OuterRace => surface == Surface::OuterRaceway,
@@ -103,7 +104,7 @@ impl Diagnosis {
                 Component::Element => matches!(surface, Surface::Roller(_)),
                 Component::Cage => false,
             };
-            run.scenario.defects.iter().any(|d| on(d.on))
+            bearings.iter().flat_map(|bearing| &bearing.defects).any(|d| on(d.on))
         };
         let mut wrong: Vec<&str> =
             (analysis.causes()).filter(|f| !is_damaged(f.component)).map(|f| f.component.words()).collect();

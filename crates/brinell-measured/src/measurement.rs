@@ -67,9 +67,13 @@ impl Measurement {
     /// As [`Measurement::open`].
     pub fn of_file(mut file: SignalFile, request: &Request) -> Result<Self, Problem> {
         let path = file.path().to_owned();
-        let run = made_by(&file);
+        let mut run = made_by(&file);
         let what = what(&mut file, request, run.as_deref())?;
         let What { channel: (channel, of), rate, unit, factor } = what;
+        // Of a machine the bearing that the channel is nearest to.
+        if let Some(run) = &mut run {
+            run.scenario = run.scenario.seen_from(&channel.value);
+        }
         let (mut notes, mut warnings) = (Vec::new(), Vec::new());
         let (name, hz, called) = (&channel.value, rate.value, request.called);
         let start = start(request, run.as_deref(), &mut notes)?;
@@ -387,8 +391,11 @@ pub fn names_of_runs() -> String {
 
 /// What damage the run had that made a signal, and what it lacks.
 fn truth(run: &Loaded) -> String {
-    let on: BTreeSet<&str> = run.scenario.defects.iter().map(|d| d.on.word()).collect();
-    let on: Vec<&str> = on.into_iter().collect();
+    let bearings = run.scenario.bearings();
+    let of = |k: usize| if run.scenario.machine.is_some() { format!(" of bearing {}", k + 1) } else { String::new() };
+    let damaged = bearings.iter().enumerate().flat_map(|(k, one)| one.defects.iter().map(move |d| (k, d.on.word())));
+    let on: BTreeSet<String> = damaged.map(|(k, on)| format!("{on}{}", of(k))).collect();
+    let on: Vec<String> = on.into_iter().collect();
     match on[..] {
         [] => "the run that made it had no damage".into(),
         _ => format!("the run that made it had damage on: {}", on.join(", ")),

@@ -2,7 +2,8 @@
 
 use brinell::accuracy::settings;
 use brinell::machine::{
-    Disc, Housing, Machine, MachineMotion, Material, OnShaft, Part, Plan, PlanError, Point, Shaft, Spring, Structure,
+    Disc, Housing, Linear, Machine, MachineMotion, Material, Mode, OnShaft, Part, Plan, PlanError, Point, Shaft,
+    Spring, Structure,
 };
 use brinell::model::{Model, Motion, Power, Support};
 use brinell::scenario::{Accuracy, LoadOn, Scenario, Speed, Start};
@@ -35,8 +36,8 @@ fn plan(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [
         at: middle,
         mass: 6.0,
         inertia: 0.05,
-        support: Support { stiffness: 1e7, damping: 500.0 },
-        tilt_support: Support { stiffness: 1e5, damping: 5.0 },
+        support: Support { stiffness: 1.1e8, damping: 1500.0 },
+        tilt_support: Support { stiffness: 1.1e6, damping: 15.0 },
         sensors: [("sensor1", AT[0]), ("sensor2", AT[1])].map(|(name, z)| (name.into(), z, FRAC_PI_2)).into(),
     };
     let model = |k: usize| Model::new(scenarios[k]).unwrap();
@@ -290,4 +291,76 @@ fn prop_a_plan_that_holds_nothing_is_refused() {
     coupled.bearings.pop();
     coupled.shaft.couplings.push(Spring { at: 0.0, radial: 1e6, tilt: 1e3 });
     assert!(coupled.machine().unwrap().balance().is_ok());
+}
+
+/// Springs between outer rings and the housing, of which one is out of line.
+#[test]
+fn analytic_a_fit_gives_way_as_its_spring_does_and_a_stiff_one_not_at_all() {
+    let s = of("6205", "full");
+    let made = |stiffness: Option<f64>, offset: [f64; 2]| {
+        let mut plan = plan([&s, &s], (false, true), [0.0, -900.0], 2e-5);
+        for bearing in &mut plan.bearings {
+            bearing.fit = stiffness.map(|stiffness| Support { stiffness, damping: 300.0 });
+        }
+        plan.bearings[0].offset = offset;
+        plan.machine().unwrap()
+    };
+    let sag = |machine: &Machine, k: usize| {
+        let balance = machine.balance().unwrap();
+        let at = machine.bearing(k) + machine.bearings[k].model.layout.outer() + 1;
+        (balance.positions[at], balance.bearings[k].force[1])
+    };
+    let rigid = made(None, [0.0; 2]);
+    for k in 0..2 {
+        let (at, _) = sag(&rigid, k);
+        let (stiff, _) = sag(&made(Some(1e12), [0.0; 2]), k);
+        assert!((stiff - at).abs() < 1e-9, "{stiff:e}, {at:e}");
+        let soft = made(Some(1e7), [0.0; 2]);
+        let (lower, force) = sag(&soft, k);
+        // With the weight of the ring and of what rolls.
+        let ring = soft.bearings[k].model.inertia.outer_ring * 9.81;
+        assert!((at - lower - (ring - force) / 1e7).abs() < 0.3e-7, "{lower:e}, {at:e}, {force}");
+    }
+    // A seat that is 20 um higher carries more of the load, by a rigid or a soft fit.
+    let lifted = made(Some(1e8), [0.0, 20e-6]);
+    let (_, level) = sag(&made(Some(1e8), [0.0; 2]), 0);
+    assert!(sag(&lifted, 0).0 > sag(&made(Some(1e8), [0.0; 2]), 0).0 + 10e-6);
+    assert!((sag(&lifted, 0).1 - level).abs() < 50.0, "two bearings share a load whatever their height");
+    for machine in [lifted, made(None, [0.0, 20e-6])] {
+        let recording = Recording {
+            duration_s: 0.05,
+            sample_rate_hz: 12_000.0,
+            record: vec!["bearing1.outer_ay".into()],
+            accuracy: Accuracy::Standard,
+            most_steps: 1e7,
+            settled_s: 0.02,
+        };
+        let outcome = Simulation::of_machine(machine, &recording).unwrap().run(&mut ());
+        assert!(outcome.energy.relative_residual().unwrap().abs() < 1e-4, "{:?}", outcome.energy);
+        assert!(outcome.momentum_imbalance.unwrap() < 1e-9, "{:?}", outcome.momentum_imbalance);
+    }
+}
+
+/// Natural frequencies of a machine with linear bearings: a rigid shaft in a rigid housing, by hand.
+#[test]
+fn analytic_a_rigid_shaft_in_a_rigid_housing_has_the_frequencies_of_two_masses() {
+    let s = of("6205", "full");
+    let machine = plan([&s, &s], (true, true), [0.0, -900.0], 0.0).machine().unwrap();
+    let (equations, ports) = machine.linearised();
+    let (k, c) = (5e7, 0.0);
+    let bearings: Vec<Linear> = (ports.into_iter())
+        .map(|port| Linear { port, stiffness: [[k, 0.0], [0.0, k]], damping: [[c, 0.0], [0.0, c]] })
+        .collect();
+    let modes = equations.modes(&bearings, 0.0);
+    // Up and down: the shaft on two springs on a housing on its own.
+    let (m, big) = (mass(&s), 6.0 + 2.0 * machine.bearings[0].model.inertia.outer_ring);
+    let (a, b) = (2.0 * k / m, (2.0 * k + 1.1e8) / big);
+    let root = ((a - b).powi(2) + 4.0 * (2.0 * k).powi(2) / (m * big)).sqrt();
+    for square in [0.5 * (a + b - root), 0.5 * (a + b + root)] {
+        let wanted = square.sqrt() / std::f64::consts::TAU;
+        // The housing has a damper.
+        let undamped = |mode: &Mode| mode.frequency / (1.0 - mode.damping_ratio.powi(2)).sqrt();
+        let near = modes.iter().any(|mode| (undamped(mode) / wanted - 1.0).abs() < 1e-3);
+        assert!(near, "{wanted} among {modes:?}");
+    }
 }

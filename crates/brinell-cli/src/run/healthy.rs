@@ -20,8 +20,7 @@ pub(super) fn beside(
     if scenario.defects.is_empty() || args.no_healthy || !shown {
         return (damaged(), None);
     }
-    let mut healthy = scenario.clone();
-    healthy.defects.clear();
+    let mut healthy = scenario.without_damage();
     // Nothing but what the sensor reads is kept of it.
     healthy.simulation.record.clear();
     std::thread::scope(|scope| {

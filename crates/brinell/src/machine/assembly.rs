@@ -3,7 +3,7 @@
 use super::structure::{Row, Seat, Structure};
 use crate::analysis::STANDARD_GRAVITY;
 use crate::lanes::WIDTH;
-use crate::model::Model;
+use crate::model::{Model, Support};
 use crate::scenario::Start;
 use crate::start;
 use crate::statics::NoBalance;
@@ -39,6 +39,8 @@ pub struct Seated {
     pub model: Model,
     /// Where the inner and the outer ring sit; a ring that sits nowhere moves on its own support.
     pub mounts: [Option<Mount>; 2],
+    /// Where the outer ring's support is fixed; none: to the ground.
+    pub fit: Option<Mount>,
     /// Its first position.
     pub(super) first: usize,
 }
@@ -59,6 +61,21 @@ impl Seated {
     pub(super) fn range(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.model.layout.dof()
     }
+}
+
+/// What a fit adds to a support that is fixed to the ground.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fit {
+    /// The ring's x; y follows.
+    pub(super) ring: usize,
+    /// Further force on the ring, N.
+    pub(super) on_ring: [f64; 2],
+    /// Force on the structure at the seat, N.
+    pub(super) on_seat: [f64; 2],
+    /// Further loss in the damper, W.
+    pub(super) loss: f64,
+    /// Further energy of the spring, J.
+    pub(super) energy: f64,
 }
 
 /// A place of a structure that is looked at, in one direction.
@@ -118,7 +135,7 @@ impl Machine {
             if let (Some(tilt), Some(_)) = (&mut model.tilt, &mounts[0]) {
                 tilt.inner.polar_inertia = 0.0;
             }
-            Seated { first: next(model.layout.dof()), model, mounts }
+            Seated { first: next(model.layout.dof()), model, mounts, fit: None }
         };
         let bearings: Vec<Seated> = bearings.into_iter().map(place).collect();
         let firsts = structures.iter().map(|structure| next(structure.size())).collect();
@@ -127,6 +144,34 @@ impl Machine {
         let limits = structures.iter().map(|structure: &Structure| structure.longest_step(fastest));
         let longest = limits.fold(f64::INFINITY, f64::min);
         Self { longest, bearings, structures, points, firsts, first_point }
+    }
+
+    /// Fixes the support of a bearing's outer ring, which sits nowhere, to a structure: a fit that gives way.
+    #[must_use]
+    pub fn with_fit(mut self, bearing: usize, mount: Mount) -> Self {
+        self.bearings[bearing].fit = Some(mount);
+        self
+    }
+
+    /// What a fit makes of its ring's support to the ground.
+    #[inline]
+    pub(super) fn fit(&self, seated: &Seated, y: &[f64]) -> Option<Fit> {
+        let mount = seated.fit.as_ref()?;
+        let (q, v) = y.split_at(self.dof());
+        let Support { stiffness, damping } = seated.model.outer_support;
+        let at = seated.first + seated.model.layout.outer();
+        let mut fit = Fit { ring: at, on_ring: [0.0; 2], on_seat: [0.0; 2], loss: 0.0, energy: 0.0 };
+        for k in 0..2 {
+            let row = &mount.seat.shift[k];
+            let place = row.of(self.of_structure(mount.structure, q)) + mount.shift[k];
+            let rate = row.of(self.of_structure(mount.structure, v));
+            let (off, slip) = (q[at + k] - place, v[at + k] - rate);
+            fit.on_ring[k] = stiffness * place + damping * rate;
+            fit.on_seat[k] = stiffness * off + damping * slip;
+            fit.loss += damping * (slip * slip - v[at + k].powi(2));
+            fit.energy += 0.5 * stiffness * (off * off - q[at + k].powi(2));
+        }
+        Some(fit)
     }
 
     /// The bearing whose speed, gravity and ramp of the load all have.
@@ -234,6 +279,10 @@ impl Machine {
                 let shifts = off(shift, mount.shift);
                 let tilts = tilt.into_iter().flat_map(|(at, _)| off(at, mount.tilt));
                 shifts.chain(tilts).for_each(|(at, by)| positions[at] += by);
+            }
+            if let Some(mount) = &seated.fit {
+                let at = seated.first + seated.model.layout.outer();
+                (0..2).for_each(|k| positions[at + k] += mount.shift[k]);
             }
         }
     }

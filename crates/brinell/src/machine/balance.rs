@@ -112,6 +112,10 @@ impl Machine {
                 Some(Mount { structure, seat, tilt, .. }) => {
                     seat.tilt[axis].of(self.of_structure(*structure, &positions)) + tilt[axis]
                 }
+                None if seated.fit.is_some() => {
+                    let Some(Mount { structure, seat, tilt, .. }) = &seated.fit else { return 0.0 };
+                    seat.tilt[axis].of(self.of_structure(*structure, &positions)) + tilt[axis]
+                }
                 None if l.tilts => rings[k][side * of_ring + 2 + axis].of(&found.x) / arm,
                 None => 0.0,
             };
@@ -175,9 +179,31 @@ impl Machine {
                 .map(|i| (0..own.len()).map(|j| if i == j { own_springs[i] } else { 0.0 }).collect())
                 .collect();
             spread(&alone, rings, &mut springs);
+            self.add_fit(seated, &rings[half..], &mut springs, &mut forces);
             rings.iter().zip(&own).for_each(|(ring, f)| ring.push(*f, &mut forces));
         }
         (springs, forces)
+    }
+}
+
+impl Machine {
+    /// Fixes the support of an outer ring, whose coordinates `rings` are, to where it fits instead of to the ground.
+    fn add_fit(&self, seated: &Seated, rings: &[Place], springs: &mut [Vec<f64>], forces: &mut [f64]) {
+        let Some(Mount { structure, seat, shift, .. }) = &seated.fit else { return };
+        let stiffness = seated.model.outer_support.stiffness;
+        let from = self.firsts[*structure] - self.coordinates().start;
+        for k in 0..2 {
+            let mut ring = vec![0.0; forces.len()];
+            rings[k].push(1.0, &mut ring);
+            let mut off = ring.clone();
+            seat.shift[k].push(-1.0, &mut off[from..]);
+            for (i, row) in springs.iter_mut().enumerate() {
+                forces[i] += stiffness * shift[k] * off[i];
+                row.iter_mut()
+                    .enumerate()
+                    .for_each(|(j, sum)| *sum += stiffness * (off[i] * off[j] - ring[i] * ring[j]));
+            }
+        }
     }
 }
 

@@ -24,6 +24,7 @@ impl Machine {
                 of.kinetic -= tilt.map_or(0.0, |(at, inertia)| 0.5 * inertia * square(at));
                 of.gravity += mass * (model.gravity[0] * own_q[shift] + model.gravity[1] * own_q[shift + 1]);
             }
+            of.supports += self.fit(seated, y).map_or(0.0, |fit| fit.energy);
             whole += of;
         }
         let gravity = self.leading().gravity;
@@ -54,6 +55,7 @@ impl Machine {
 
     /// Momentum of a structure changes by the forces on it alone.
     fn of_nowhere(&self, k: usize, (t, y, a): (f64, &[f64], &[f64]), parts: &Parts) -> f64 {
+        let (all, index) = (y, k);
         let (q, v) = y.split_at(self.dof());
         let structure = &self.structures[k];
         let (q, v, a) = (self.of_structure(k, q), self.of_structure(k, v), self.of_structure(k, a));
@@ -67,6 +69,12 @@ impl Machine {
             let mut sum = pulled + weight - momentum.of(a);
             let mut scale = momentum.of(a).abs() + weight.abs() + pulled.abs();
             for (seated, part) in self.bearings.iter().zip(&parts.each) {
+                if let Some(fit) =
+                    self.fit(seated, all).filter(|_| seated.fit.as_ref().is_some_and(|of| of.structure == index))
+                {
+                    sum += fit.on_seat[along];
+                    scale += fit.on_seat[along].abs();
+                }
                 for (side, mount) in seated.mounts.iter().enumerate() {
                     if !matches!(mount, Some(Mount { structure, .. }) if *structure == k) {
                         continue;

@@ -100,6 +100,13 @@ impl Machine {
             seated.model.accelerations(t, &part.y, &mut part.a, &mut part.ws);
             a[seated.range()].copy_from_slice(&part.a);
             power += part.ws.power;
+            if let (Some(fit), Some(mount)) = (self.fit(seated, y), &seated.fit) {
+                let mass = seated.model.inertia.outer_ring;
+                (0..2).for_each(|k| a[fit.ring + k] += fit.on_ring[k] / mass);
+                let f = &mut a[self.firsts[mount.structure]..];
+                (0..2).for_each(|k| mount.seat.shift[k].push(fit.on_seat[k], f));
+                power.support += fit.loss;
+            }
             for (side, mount) in seated.mounts.iter().enumerate() {
                 let Some(Mount { structure, seat, .. }) = mount else { continue };
                 let f = &mut a[self.firsts[*structure]..];

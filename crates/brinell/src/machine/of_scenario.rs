@@ -5,12 +5,12 @@ use super::{Machine, Material, Part, Spring};
 use crate::document::Problem;
 use crate::error::Error;
 use crate::model::{Model, Support};
-use crate::scenario::{self, Scenario, SensorOn};
+use crate::scenario::{self, SensorOn};
 
 /// The machine of a scenario that has one, and the models of its bearings in the file's order.
 ///
 /// # Errors
-/// Where it makes none: [`Scenario::problems`] says so too.
+/// Where it makes none: [`Scenario::problems`](crate::Scenario::problems) says so too.
 pub(crate) fn machine(of: &scenario::Machine, models: Vec<Model>) -> Result<Machine, Error> {
     plan(of, models).machine().map_err(|error: PlanError| vec![Problem::error("shaft", error.to_string())].into())
 }
@@ -78,18 +78,11 @@ pub(crate) fn plan(of: &scenario::Machine, models: Vec<Model>) -> Plan {
         housing: of.housing_of(seat.housing),
         offset: seat.offset_um.map(|um| 1e-6 * um),
         misalignment: seat.misalignment_mrad.map(|mrad| 1e-3 * mrad),
+        fit: seat.fit_stiffness_n_per_m.map(|stiffness| Support { stiffness, damping: seat.fit_damping_ns_per_m }),
     };
     Plan {
         shaft,
         bearings: of.seats.iter().zip(models).map(bearing).collect(),
         housings: of.housings.iter().enumerate().map(housing).collect(),
-    }
-}
-
-/// The scenarios of a machine's bearings, each alone, in the file's order; of one bearing its own.
-pub(crate) fn bearings(scenario: &Scenario) -> Vec<Scenario> {
-    match &scenario.machine {
-        Some(of) => of.each(scenario).map(|(_, alone)| alone).collect(),
-        None => vec![scenario.clone()],
     }
 }

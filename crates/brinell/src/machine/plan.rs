@@ -64,7 +64,8 @@ impl Shaft {
 /// A bearing on the shaft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnShaft {
-    /// The bearing; its outer ring's mass moves with the housing, if it sits in one. What supports its inner ring supports the shaft there.
+    /// The bearing; its outer ring's mass moves with the housing, if it sits in one, which holds it then instead of its own support. What supports
+    /// its inner ring supports the shaft there.
     pub model: Model,
     /// Z of its middle, m.
     pub at: f64,
@@ -74,12 +75,14 @@ pub struct OnShaft {
     pub offset: [f64; 2],
     /// By how much it is tilted, rad: slopes of its axis in (X, Z) and (Y, Z).
     pub misalignment: [f64; 2],
+    /// Spring and damper of the outer ring in the housing; without one it sits there rigidly. Of bearings that do not tilt.
+    pub fit: Option<Support>,
 }
 
 impl OnShaft {
     /// In line with the others.
     pub fn new(model: Model, at: f64, housing: Option<usize>) -> Self {
-        Self { model, at, housing, offset: [0.0; 2], misalignment: [0.0; 2] }
+        Self { model, at, housing, offset: [0.0; 2], misalignment: [0.0; 2], fit: None }
     }
 }
 
@@ -181,7 +184,8 @@ impl Plan {
         let mut structures = vec![of_shaft];
         let mut bodies = Vec::new();
         for (k, housing) in housings.iter().enumerate() {
-            let body = Rigid::new(housing, bearings.iter().filter(|bearing| bearing.housing == Some(k)));
+            let within = |bearing: &&OnShaft| bearing.housing == Some(k) && bearing.fit.is_none();
+            let body = Rigid::new(housing, bearings.iter().filter(within));
             structures.push(Structure::rigid((body.mass, body.inertia), (housing.support, housing.tilt_support)));
             for (name, z, direction) in &housing.sensors {
                 let row = body.seat(*z).along(*direction);
@@ -189,7 +193,8 @@ impl Plan {
             }
             bodies.push(body);
         }
-        let place = |bearing: OnShaft| {
+        let mut fits = Vec::new();
+        let mut place = |(number, mut bearing): (usize, OnShaft)| {
             let inner = Mount { structure: 0, seat: seat(bearing.at), shift: [0.0; 2], tilt: [0.0; 2] };
             let outer = bearing.housing.map(|k| Mount {
                 structure: k + 1,
@@ -197,9 +202,22 @@ impl Plan {
                 shift: bearing.offset,
                 tilt: bearing.misalignment,
             });
-            (bearing.model, [Some(inner), outer])
+            match (bearing.fit, outer) {
+                (Some(fit), Some(outer)) => {
+                    bearing.model.outer_support = fit;
+                    fits.push((number, outer));
+                    (bearing.model, [Some(inner), None])
+                }
+                (None, Some(outer)) => {
+                    bearing.model.outer_support = Support { stiffness: 0.0, damping: 0.0 };
+                    (bearing.model, [Some(inner), Some(outer)])
+                }
+                (_, None) => (bearing.model, [Some(inner), None]),
+            }
         };
-        Ok(Machine::new(bearings.into_iter().map(place).collect(), structures, points))
+        let bearings = bearings.into_iter().enumerate().map(&mut place).collect();
+        let machine = Machine::new(bearings, structures, points);
+        Ok(fits.into_iter().fold(machine, |machine, (number, mount)| machine.with_fit(number, mount)))
     }
 
     fn check(&self) -> Result<(), PlanError> {

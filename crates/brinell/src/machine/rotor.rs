@@ -39,20 +39,24 @@ impl Machine {
         let mut ports = Vec::new();
         for (seated, own) in self.bearings.iter().zip(&alone) {
             let mut port = Port::zeros(size);
-            let mut add = |mount: &Mount, sign: f64| {
+            let add = |port: &mut Port, mount: &Mount, sign: f64| {
                 let structure = &self.structures[mount.structure];
                 let row: &Row = &mount.seat.shift[0];
                 for k in 0..structure.size() / 2 {
                     port.0[starts[mount.structure] + k] += sign * row.share(structure.in_first_plane(k));
                 }
             };
-            seated.mounts[0].iter().for_each(|mount| add(mount, 1.0));
-            seated.mounts[1].iter().for_each(|mount| add(mount, -1.0));
+            seated.mounts[0].iter().for_each(|mount| add(&mut port, mount, 1.0));
+            seated.mounts[1].iter().for_each(|mount| add(&mut port, mount, -1.0));
             if let Some(k) = *own {
                 let (mass, support) = (seated.model.inertia.outer_ring, seated.model.outer_support);
-                port.0[k] = -mass.sqrt().recip();
-                equations.stiffness[(k, k)] = support.stiffness / mass;
-                equations.damping[(k, k)] = support.damping / mass;
+                let mut held = Port::zeros(size);
+                held.0[k] = mass.sqrt().recip();
+                port.0 -= &held.0;
+                seated.fit.iter().for_each(|mount| add(&mut held, mount, -1.0));
+                let place = &held.0 * held.0.transpose();
+                equations.stiffness += support.stiffness * &place;
+                equations.damping += support.damping * &place;
             }
             ports.push(port);
         }

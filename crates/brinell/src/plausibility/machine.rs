@@ -14,6 +14,8 @@ pub fn carried(scenario: &Scenario, machine: &Machine, balance: &Balance) -> Vec
         let (mut alone, mut model) = (scenario.bearing_of_machine(k), machine.bearings[k].model.clone());
         (alone.operation.load_n, alone.operation.load_on) = (of.force, LoadOn::InnerRing);
         alone.operation.gravity_m_per_s2 = [0.0; 2];
+        // Held to be looked at alone, as it would be without a housing.
+        model.outer_support.stiffness = alone.support.outer_stiffness_n_per_m;
         (model.load.full, model.load.on, model.gravity) = (of.force, LoadOn::InnerRing, [0.0; 2]);
         (alone, model)
     };

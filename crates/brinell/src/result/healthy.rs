@@ -23,7 +23,7 @@ pub fn beside_healthy(analysis: &mut Analysis, scenario: &Scenario, stretch: Str
     if !analysis.causes().any(|f| f.component == Component::OuterRace) {
         return;
     }
-    if scenario.defects.is_empty() {
+    if scenario.bearings().iter().all(|bearing| bearing.defects.is_empty()) {
         analysis.beside_healthy_run(None);
     } else if let Some(healthy) = healthy(analysis, scenario, stretch) {
         analysis.beside_healthy_run(Some(&healthy));
@@ -32,8 +32,7 @@ pub fn beside_healthy(analysis: &mut Analysis, scenario: &Scenario, stretch: Str
 
 /// The same stretch of the healthy bearing's run, analysed alike.
 fn healthy(analysis: &Analysis, scenario: &Scenario, stretch: Stretch<'_>) -> Option<Analysis> {
-    let mut healthy = scenario.clone();
-    healthy.defects.clear();
+    let mut healthy = scenario.without_damage();
     healthy.simulation.record = vec![stretch.channel.to_owned()];
     let first = (stretch.from_s * analysis.sample_rate).round() as usize;
     let end = first + analysis.samples;

@@ -192,6 +192,44 @@ impl Scenario {
         nearest.map_or_else(|| format!("bearing{}.outer_ay", machine.lead + 1), |of| machine.channel_of(of))
     }
 
+    /// The bearings of its machine, each alone, in the file's order; without a machine the scenario itself.
+    pub fn bearings(&self) -> Vec<Self> {
+        let count = self.machine.as_ref().map_or(1, |machine| machine.bearings());
+        (0..count).map(|k| self.bearing_of_machine(k)).collect()
+    }
+
+    /// The same without damage of any bearing.
+    #[must_use]
+    pub fn without_damage(&self) -> Self {
+        let mut healthy = self.clone();
+        healthy.defects.clear();
+        let others = healthy.machine.iter_mut().flat_map(|machine| &mut machine.others);
+        others.for_each(|other| other.defects.clear());
+        healthy
+    }
+
+    /// The same with what is observed of it at the bearing that a channel is of, or that its accelerometer is nearest to.
+    #[must_use]
+    pub fn seen_from(&self, channel: &str) -> Self {
+        let Some(machine) = &self.machine else { return self.clone() };
+        let sensor = machine.sensors.iter().find(|sensor| machine.channel_of(sensor) == channel);
+        let of_bearing = channel.strip_prefix("bearing").and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
+        let nearest = |at_mm: f64| {
+            let far = |k: &usize| (machine.seats[*k].at_mm - at_mm).abs();
+            (0..machine.bearings()).min_by(|a, b| far(a).total_cmp(&far(b)))
+        };
+        let lead = match (sensor, of_bearing) {
+            (Some(sensor), _) => nearest(sensor.at_mm),
+            (None, number) => number.and_then(|number| number.checked_sub(1)).filter(|k| *k < machine.bearings()),
+        };
+        let Some(lead) = lead else { return self.clone() };
+        let mut bearings = self.bearings();
+        let mut seen = bearings.remove(lead);
+        seen.sensor = self.sensor.clone();
+        seen.machine = Some(Box::new(Machine { lead, others: bearings, ..(**machine).clone() }));
+        seen
+    }
+
     /// Bearing `k` of its machine, from 0, as a scenario without the machine; without one the scenario itself.
     pub fn bearing_of_machine(&self, k: usize) -> Self {
         let Some(machine) = &self.machine else { return self.clone() };

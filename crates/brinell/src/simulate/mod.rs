@@ -251,7 +251,7 @@ pub struct Simulation {
 /// What `make` makes of each bearing of a scenario.
 fn each<T>(scenario: &Scenario, make: impl Fn(&Scenario) -> Result<T, ModelError>) -> Result<Vec<T>, ModelError> {
     match scenario.machine {
-        Some(_) => machine::bearings(scenario).iter().map(make).collect(),
+        Some(_) => scenario.bearings().iter().map(make).collect(),
         None => Ok(vec![make(scenario)?]),
     }
 }

@@ -121,8 +121,18 @@ pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Probl
 }
 
 /// What bearings and machine together get wrong.
-pub(super) fn of_bearings(root: &Table, bearings: &[Scenario], text: &str, problems: &mut Vec<Problem>) {
+pub(super) fn of_bearings(
+    root: &Table,
+    (machine, bearings): (&Machine, &[Scenario]),
+    text: &str,
+    problems: &mut Vec<Problem>,
+) {
     let place = |key: &str| at(root, key).and_then(|node| Some(Place::new(text, node.span.clone()?)));
+    let tilts = bearings.first().is_some_and(|of| of.simulation.model == ModelKind::Tilting);
+    if tilts && machine.seats.iter().any(|seat| seat.fit_stiffness_n_per_m.is_some()) {
+        let message = "where rings tilt, outer rings sit in their housings rigidly";
+        problems.push(Problem::error("simulation.model", message).allowed("\"full\", or no fit_stiffness_n_per_m"));
+    }
     for key in OF_THE_SHAFT.map(|name| format!("operation.{name}")) {
         if given(root, &key) {
             let message = "in a machine loads act on the shaft";

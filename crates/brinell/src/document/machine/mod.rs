@@ -77,7 +77,7 @@ pub(super) fn read(text: &str, root: &Table) -> Result<Loaded, Vec<Problem>> {
             Err(found) => told(found, true),
         }
     }
-    checks::of_bearings(root, &bearings, text, &mut problems);
+    checks::of_bearings(root, (&machine, &bearings), text, &mut problems);
     problems.sort_by_key(Problem::order);
     if problems.iter().any(|problem| problem.severity == Severity::Error) {
         return Err(problems);
