@@ -51,7 +51,12 @@ pub(crate) fn channel(
         let along = run.scenario.shown_channel();
         if let Some(found) = file.channels().iter().find(|c| c.name == along) {
             let (known, channel) = named(found, Source::File("the scenario of the run in the file".into()));
-            return Ok(Ok((known.noted(format!("channel {along}, along the load, as none was named")), channel)));
+            let which = if run.scenario.machine.is_some() {
+                "nearest to the bearing that is damaged, or to the first"
+            } else {
+                "along the load"
+            };
+            return Ok(Ok((known.noted(format!("channel {along}, {which}, as none was named")), channel)));
         }
     }
     if let Some(found) =

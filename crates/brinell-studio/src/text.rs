@@ -36,7 +36,13 @@ pub(crate) fn plain(text: &str) -> Answer<String> {
 
 /// Reads a scenario.
 pub(crate) fn read(text: &str) -> Answer<Loaded> {
-    document::read(text, &[]).map_err(|problems| Trouble::all(&problems))
+    let loaded = document::read(text, &[]).map_err(|problems| Trouble::all(&problems))?;
+    if loaded.scenario.machine.is_some() {
+        return Err(Trouble::of(
+            "the studio runs one bearing, and this is a machine: `brinell run` simulates it, and its page shows it",
+        ));
+    }
+    Ok(loaded)
 }
 
 impl Trouble {

@@ -17,6 +17,8 @@ const SPEEDS: usize = 40;
 const LINES: usize = 8;
 /// How far beyond the top speed it goes.
 const BEYOND: f64 = 1.5;
+/// Or beyond the first critical speed, where that is not farther than so many times the top speed.
+const FAR: f64 = 8.0;
 
 /// `None` of a bearing on its own.
 pub(super) fn chapter(parts: &Parts) -> Option<Chapter> {
@@ -80,10 +82,10 @@ fn sensors(parts: &Parts) -> Table {
 }
 
 fn critical(derived: &DerivedMachine) -> Table {
-    let row = |(speed, whirl): (f64, Whirl)| vec![short(60.0 * speed / TAU, 5), way(whirl).into()];
+    let row = |(speed, whirl): (f64, Whirl)| vec![way(whirl).into(), short(60.0 * speed / TAU, 5)];
     let speeds = derived.critical_speeds();
     let note = "Without damping, on the bearings\u{2019} stiffness at their load and at the top speed.";
-    Table::new("Critical speeds", ["#r/min", "Whirl"], speeds.into_iter().take(LINES).map(row), note)
+    Table::new("Critical speeds", ["Whirl", "#Critical speed, r/min"], speeds.into_iter().take(LINES).map(row), note)
 }
 
 fn way(whirl: Whirl) -> &'static str {
@@ -95,7 +97,9 @@ fn way(whirl: Whirl) -> &'static str {
 
 /// Natural frequencies over the speed, with the line of one a turn.
 fn campbell(derived: &DerivedMachine) -> Piece {
-    let step = BEYOND * derived.top_speed / (SPEEDS - 1) as f64;
+    let critical = derived.critical_speeds().first().map_or(0.0, |(speed, _)| *speed);
+    let near = if critical < FAR * derived.top_speed { critical } else { 0.0 };
+    let step = BEYOND * derived.top_speed.max(near) / (SPEEDS - 1) as f64;
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| k as f64 * step).collect();
     let along = || Along::Even { first: 0.0, step: 60.0 * step / TAU };
     let line = |modes: Vec<Option<Mode>>| {

@@ -14,7 +14,7 @@ mod tables;
 use crate::data::Signals;
 use crate::frame::THINNED;
 use crate::number::short;
-use crate::page::{Chapter, Page};
+use crate::page::Page;
 use brinell::result::Parts;
 use brinell::scenario::{Bearing, ModelKind, Scenario, Speed};
 use brinell::simulate::End;
@@ -40,8 +40,8 @@ impl Page {
             view.photo.clone_from(photo);
         }
         let signals = Arc::new(of_signals(parts));
-        let mut all: Vec<Chapter> = machine::chapter(parts).into_iter().collect();
-        all.extend(chapters::signals(&signals));
+        let mut all = chapters::signals(&signals);
+        all.extend(machine::chapter(parts));
         all.push(chapters::spectrogram(spectrogram(parts, sensor_label(parts))));
         all.extend(chapters::sensor(sensor::view(parts)));
         let passes = parts.findings.passes.best();

@@ -26,6 +26,13 @@ pub struct Headline {
 /// different axes each run's axis is its own, and the other axis is left out: no run's number along its load is held against
 /// another's across it.
 pub fn compared_headline(sides: &[Side], compared: &[Compared]) -> Vec<Headline> {
+    // Of machines the accelerometer that the pages show.
+    if let Some(one) = sides.first().filter(|side| side.loaded.scenario.machine.is_some()) {
+        let shown = one.loaded.scenario.shown_channel();
+        let is_shown = |name: &str| WHICH.iter().any(|which| name == format!("{shown}.{which}"));
+        let peak = |name: &str| name.ends_with("entry_peak") || name.ends_with("exit_peak");
+        return compared.iter().filter(|c| is_shown(&c.name) || peak(&c.name)).map(as_it_is).collect();
+    }
     let axes: Vec<usize> = sides.iter().map(|side| side.loaded.scenario.operation.axis_of_load()).collect();
     let Some(&first) = axes.first() else {
         return Vec::new();

@@ -43,7 +43,7 @@ pub struct Pattern {
     /// Which of the filtered channels represents the sensor.
     pub(super) axis: usize,
     /// Its name.
-    pub channel: &'static str,
+    pub channel: String,
     /// What the measured signal says.
     pub targets: Vec<Target>,
     /// What was read, in sentences.
@@ -138,7 +138,14 @@ fn targets(
     speeds: Speeds,
     share: f64,
 ) -> Result<Pattern, CalibrateError> {
-    let channel = SENSOR[axis];
+    // A machine's accelerometers have an axis each.
+    let (axis, channel) = match scenario.machine {
+        None => (axis, SENSOR[axis].to_owned()),
+        Some(_) => {
+            let shown = scenario.shown_channel();
+            (simulation.filtered().iter().position(|c| c.name == shown).unwrap_or(0), shown)
+        }
+    };
     let model = simulation.model();
     let (speed, _) = model.rotation.at(0.0);
     let kinematics = model.kinematics(speed);

@@ -2,9 +2,9 @@
 
 use crate::campaign::row::fingerprint;
 use brinell::document::{Loaded, Problem, numberless};
-use brinell::model::Model;
 use brinell::plausibility;
 use brinell::scenario::Scenario;
+use brinell::simulate::Simulation;
 use std::collections::HashMap;
 use std::fmt::Display;
 use std::sync::{Mutex, PoisonError};
@@ -141,8 +141,8 @@ impl Beforehand {
             return warnings.clone();
         }
         // Unlocked: other threads have other scenarios.
-        let model = Model::planned(scenario);
-        let found = model.map_or(Vec::new(), |model| plausibility::Beforehand::of(scenario, &model).warnings);
+        let planned = Simulation::planned(scenario);
+        let found = planned.map_or(Vec::new(), |of| plausibility::Beforehand::of_run(scenario, &of).warnings);
         known().insert(print, found.clone());
         found
     }

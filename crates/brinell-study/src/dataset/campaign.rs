@@ -303,7 +303,7 @@ impl Sources {
             ));
         }
         Ok(Campaign {
-            columns: columns(draws, &signals),
+            columns: columns(draws, &signals, first.scenario.machine.is_some()),
             files: Files::new(draws),
             identity: digest(&meaning.join("\n")),
             signals,

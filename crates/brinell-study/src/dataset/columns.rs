@@ -121,18 +121,36 @@ const KNOWN: [Fixed; 12] = [
     ("duration_s", "s", "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
         Number(|r| Some(r.scenario()?.simulation.duration_s))),
     ("analysed_from_s", "s", "the load has its full size and the start is over from here on: forces and slip of the ground truth count from here", Number(|r| (r.gathered()?.samples > 0).then_some(r.findings()?.from))),
-    ("bearing", "1", "catalogue name, where one was given", Words(|r| r.scenario()?.bearing.preset.clone())),
-    ("rows", "1", "rows of rollers", Whole(|r| Some(r.scenario()?.bearing.rows))),
-    ("rollers_per_row", "1", "rollers of a row", Whole(|r| Some(r.scenario()?.bearing.rollers_per_row))),
+    ("bearing", "1", "catalogue name, where one was given; of a machine this and the next are of its first bearing", Words(|r| r.first_bearing()?.preset.clone())),
+    ("rows", "1", "rows of rollers", Whole(|r| Some(r.first_bearing()?.rows))),
+    ("rollers_per_row", "1", "rollers of a row", Whole(|r| Some(r.first_bearing()?.rollers_per_row))),
     ("speed_rpm", "r/min", "speed of the inner ring, where it is constant", Number(|r| match r.scenario()?.operation.speed_rpm {
         Speed::Constant(rpm) => Some(rpm),
         Speed::Profile(_) => None,
     })),
-    ("load_n", "N", "load [x, y], from the centre to the load zone", Numbers(|r| Some(r.scenario()?.operation.load_n.to_vec()))),
-    ("ftf_hz", "Hz", "cage frequency in pure rolling at constant speed", Number(|r| Some(r.kinematics()?.ftf))),
-    ("bpfo_hz", "Hz", "outer race frequency, likewise", Number(|r| Some(r.kinematics()?.bpfo))),
-    ("bpfi_hz", "Hz", "inner race frequency, likewise", Number(|r| Some(r.kinematics()?.bpfi))),
-    ("bsf_hz", "Hz", "roller spin frequency, likewise; damage on a roller meets a raceway at twice this", Number(|r| Some(r.kinematics()?.bsf))),
+    ("load_n", "N", "load [x, y], from the centre to the load zone; of a machine none, its loads are the shaft's", Numbers(|r| {
+        let scenario = r.scenario().filter(|scenario| scenario.machine.is_none())?;
+        Some(scenario.operation.load_n.to_vec())
+    })),
+    ("ftf_hz", "Hz", "cage frequency in pure rolling at constant speed", Number(|r| Some(r.kinematics_of_first()?.ftf))),
+    ("bpfo_hz", "Hz", "outer race frequency, likewise", Number(|r| Some(r.kinematics_of_first()?.bpfo))),
+    ("bpfi_hz", "Hz", "inner race frequency, likewise", Number(|r| Some(r.kinematics_of_first()?.bpfi))),
+    ("bsf_hz", "Hz", "roller spin frequency, likewise; damage on a roller meets a raceway at twice this", Number(|r| Some(r.kinematics_of_first()?.bsf))),
+];
+
+/// What a machine has beside: its bearings, and which of them is damaged.
+#[rustfmt::skip]
+const OF_MACHINES: [(Fixed, bool); 2] = [
+    (("bearings", "1", "catalogue names of the bearings, in the file's order", WordsList(|r| {
+        let bearings = r.scenario()?.bearings();
+        Some(bearings.into_iter().map(|one| one.bearing.preset.unwrap_or_default()).collect())
+    })), false),
+    (("damaged_bearing", "1", "number of the bearing that is damaged, from 1; 0: none. What is said of contacts, cage and slip is of this one, or of the first",
+        Whole(|r| {
+            let scenario = r.scenario()?;
+            let lead = scenario.machine.as_ref()?.lead;
+            Some(if scenario.defects.is_empty() { 0 } else { lead + 1 })
+        })), true),
 ];
 
 /// Last: labels, and what no test rig tells.
@@ -220,6 +238,11 @@ const TRUTH: [Fixed; 55] = [
         Words(|r| r.scenario().map(fingerprint))),
 ];
 
+/// Whether a key is one of damage, of one bearing or of one of a machine's.
+pub(crate) fn is_of_damage(key: &str) -> bool {
+    key.starts_with("defects") || key.starts_with("bearing.") && key.contains(".defects")
+}
+
 fn extent(defect: &Defect) -> Extent {
     Extent::of(&defect.shape, defect.depth)
 }
@@ -244,7 +267,8 @@ fn fixed((name, unit, description, source): &Fixed, tells: bool) -> DataColumn {
 }
 
 /// The columns of a campaign: head, signals, known, parameters, truth.
-pub(crate) fn columns(draws: &Draws, signals: &[Column]) -> Vec<DataColumn> {
+/// `is_machine`: whether runs are of a machine.
+pub(crate) fn columns(draws: &Draws, signals: &[Column], is_machine: bool) -> Vec<DataColumn> {
     let head = HEAD.iter().map(|c| fixed(c, false));
     let signals = signals.iter().enumerate().map(|(k, column)| DataColumn {
         record: RecordColumn { column: column.clone(), kind: Kind::Signal },
@@ -257,10 +281,11 @@ pub(crate) fn columns(draws: &Draws, signals: &[Column]) -> Vec<DataColumn> {
         let unit = brinell::document::unit_of_key(&parameter.key);
         let unit = if unit.is_empty() { "1" } else { unit };
         // What only some classes draw, or what is drawn for damage, tells the class.
-        let tells = !parameter.common || parameter.key.starts_with("defects");
+        let tells = !parameter.common || is_of_damage(&parameter.key);
         let source = Source::Parameter(k, kind);
         DataColumn::new(&parameter.key, unit, "drawn: key of the scenario", tells, source)
     });
     let truth = TRUTH.iter().map(|c| fixed(c, true));
-    head.chain(signals).chain(known).chain(parameters).chain(truth).collect()
+    let of_machines = OF_MACHINES.iter().filter(|_| is_machine).map(|(c, tells)| fixed(c, *tells));
+    head.chain(signals).chain(known).chain(parameters).chain(truth).chain(of_machines).collect()
 }

@@ -6,7 +6,7 @@ use crate::dataset::about::{
 };
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
-use crate::dataset::columns::DataColumn;
+use crate::dataset::columns::{DataColumn, is_of_damage};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CHECKSUM, Folder, SECRET_PATH, file_name, make, put, written};
 use crate::design::Part;
@@ -54,7 +54,7 @@ fn about(campaign: &Campaign) -> About {
     let simulation = &first.scenario.simulation;
     let constant = |key: &str, value: f64| (!varies(key)).then_some(value);
     let keys = first.provenance.iter().filter(|p| {
-        let tells = p.key.starts_with("defects") || draws.parameters().iter().any(|q| !q.common && q.key == p.key);
+        let tells = is_of_damage(&p.key) || draws.parameters().iter().any(|q| !q.common && q.key == p.key);
         !(holds_out && tells)
     });
     let sources = Sources {

@@ -14,7 +14,7 @@ use brinell::observe::Findings;
 use brinell::observe::slip::RowSlip;
 use brinell::plausibility::Beforehand;
 use brinell::result::{Parts, RunResult};
-use brinell::scenario::{self, Scenario, Speed};
+use brinell::scenario::{self, Bearing, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
@@ -157,7 +157,21 @@ impl<'a> Run<'a> {
 
     /// Of pure rolling, at constant speed.
     pub(crate) fn kinematics(&self) -> Option<Kinematics> {
-        let model = self.model()?;
+        self.kinematics_of(self.model()?)
+    }
+
+    /// The same of the first bearing of a machine, which tells nothing of damage.
+    pub(crate) fn kinematics_of_first(&self) -> Option<Kinematics> {
+        let (result, _) = self.ended.as_ref()?;
+        self.kinematics_of(&result.simulation.machine().bearings[0].model)
+    }
+
+    /// The bearing; of a machine the first.
+    pub(crate) fn first_bearing(&self) -> Option<Bearing> {
+        Some(self.scenario()?.bearing_of_machine(0).bearing)
+    }
+
+    fn kinematics_of(&self, model: &Model) -> Option<Kinematics> {
         match self.scenario()?.operation.speed_rpm {
             Speed::Constant(_) => Some(model.kinematics(model.rotation.at(0.0).0)),
             Speed::Profile(_) => None,

@@ -36,8 +36,9 @@ impl Seeded {
 }
 
 /// Keys that are seeded per run, where the plan does not set them.
-const SEEDED_PER_RUN: [Seeded; 3] = [
+const SEEDED_PER_RUN: [Seeded; 5] = [
     Seeded { table: "defects.*.shape.random", name: "seed", with: &[], elsewhere: None },
+    Seeded { table: "bearing.*.defects.*.shape.random", name: "seed", with: &[], elsewhere: None },
     Seeded { table: "sensor", name: "noise_seed", with: &["noise_rms_m_per_s2", "noise_snr_db"], elsewhere: None },
     Seeded {
         table: "bearing",
@@ -45,7 +46,34 @@ const SEEDED_PER_RUN: [Seeded; 3] = [
         with: &["waviness", "element_waviness"],
         elsewhere: Some("simulation.seed"),
     },
+    Seeded {
+        table: "bearing.*",
+        name: "seed",
+        with: &["waviness", "element_waviness"],
+        elsewhere: Some("simulation.seed"),
+    },
 ];
+
+/// How many bearings a base has that is a machine; `None` of one bearing.
+fn bearings_of(base: &str) -> Result<Option<usize>, Vec<Problem>> {
+    let root = parse(base, &[])?;
+    Ok(match root.get("bearing").map(|entry| &entry.node.value) {
+        Some(Toml::Array(bearings)) => Some(bearings.len()),
+        _ => None,
+    })
+}
+
+/// What a class's damage sets: in a machine that of one bearing, and none of the others.
+fn damage_of(bearings: Option<usize>, number: Option<usize>, damage: String) -> Vec<(String, String)> {
+    let Some(count) = bearings else { return vec![("defects".into(), damage)] };
+    let damaged = number.unwrap_or(1);
+    let of = |k: usize| {
+        let own = if k == damaged { damage.clone() } else { "[]".into() };
+        (format!("bearing.{}.defects", k - 1), own)
+    };
+    // One that is not there is refused where the scenario is read.
+    (1..=count.max(damaged)).map(of).collect()
+}
 
 /// One run's settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -339,7 +367,8 @@ impl Draws {
             }
         }
         if let Some(defects) = &class.defects {
-            settings.push(("defects".into(), defects.toml(&mut next)));
+            let damage = defects.toml(&mut next);
+            settings.extend(damage_of(bearings_of(base)?, class.bearing, damage));
         }
         let seeds = self.seeds(base, &settings, run).map_err(no_place)?;
         settings.extend(seeds);
@@ -376,7 +405,9 @@ impl Draws {
     /// Whether the plan sets a key in a class.
     fn sets(&self, class: usize, key: &str) -> bool {
         let class = &self.plan.classes[class];
-        let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
+        let of_damage =
+            key.split_once("defects.").filter(|(before, _)| before.is_empty() || before.starts_with("bearing."));
+        let in_class = of_damage.map(|(_, rest)| rest).zip(class.defects.as_ref());
         self.plan.vary.sets(key) || class.vary.sets(key) || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
     }
 

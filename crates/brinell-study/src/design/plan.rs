@@ -66,6 +66,8 @@ pub struct Class {
     pub(super) vary: Template,
     /// The list of defects in place of the base's; `None` leaves those.
     pub(super) defects: Option<Template>,
+    /// Of a base that is a machine: which bearing has them, from 1; the others have none.
+    pub(super) bearing: Option<usize>,
 }
 
 /// How runs whose labels are open are divided for training, validation and test.

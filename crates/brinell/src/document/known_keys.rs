@@ -58,8 +58,8 @@ fn collect(section: &str, schema: &Json, keys: &mut Vec<(String, String)>) {
 mod tests {
     use super::*;
     use crate::scenario::{
-        Bearing, Cage, Contact, Defect, DepthGrid, Friction, Housing, Lubricant, Operation, PathMode, Simulation,
-        Support,
+        Accelerometer, Bearing, Cage, Contact, Coupling, Defect, DepthGrid, Disc, Friction, Housing, Lubricant, Operation,
+        PathMode, RigidHousing, Seat, Shaft, ShaftLoad, Simulation, Support, Unbalance,
     };
 
     /// A field without its line in the lists of keys would stay what nobody gave: NaN, or 0.
@@ -87,5 +87,22 @@ mod tests {
                 assert!(known_keys().contains(&key), "{section}.{field}: no line in document/sections.rs or its kin");
             }
         }
+        for (section, fields) in [
+            ("shaft", Shaft::FIELDS),
+            ("shaft.disc", Disc::FIELDS),
+            ("shaft.unbalance", Unbalance::FIELDS),
+            ("shaft.load", ShaftLoad::FIELDS),
+            ("shaft.coupling", Coupling::FIELDS),
+            ("bearing", Seat::FIELDS),
+            ("housing", RigidHousing::FIELDS),
+            ("sensor", Accelerometer::FIELDS),
+        ] {
+            for field in fields {
+                let key = (section.to_owned(), (*field).to_owned());
+                assert!(keys_of_machine().contains(&key), "{section}.{field}: no line in document/machine/keys.rs");
+            }
+        }
+        // Its tables are named otherwise: seats with their bearings, others among them.
+        assert_eq!(Machine::FIELDS, ["shaft", "seats", "lead", "others", "housings", "sensors"]);
     }
 }

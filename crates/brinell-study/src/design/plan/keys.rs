@@ -28,7 +28,7 @@ impl Plan {
             return Err(problems);
         }
         if plan.classes.is_empty() {
-            plan.classes.push(Class { name: "all".into(), share: 1.0, vary: Template::default(), defects: None });
+            plan.classes.push(Class { name: "all".into(), share: 1.0, vary: Template::default(), defects: None, bearing: None });
         }
         Ok(plan)
     }
@@ -114,7 +114,7 @@ pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
     k.tables(
         key("classes", "kinds of runs: none, one or many"),
         &mut p.classes,
-        || Class { name: String::new(), share: 1.0, vary: Template::default(), defects: None },
+        || Class { name: String::new(), share: 1.0, vary: Template::default(), defects: None, bearing: None },
         |k, class| {
             k.key(key("name", "label of the class"), Fallback::Required, &mut class.name);
             k.key(
@@ -128,6 +128,11 @@ pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
                 &mut class.vary,
             );
             k.optional(key("defects", "defects in place of the base's"), &mut class.defects);
+            k.optional(
+                key("bearing", "of a base that is a machine: number of the bearing that has these defects; left out: the first. The others have none")
+                    .from(1.0),
+                &mut class.bearing,
+            );
         },
     );
 }
