@@ -150,6 +150,12 @@ pub(crate) fn run(args: &CoefficientsArgs) -> Result<ExitCode, Failure> {
 
 /// Direction of the scenario's load and the loads along it, N.
 fn loads(s: &Scenario, given: Option<&str>) -> Result<([f64; 2], Vec<f64>), Failure> {
+    if let Some(of) = &s.machine {
+        return Err(Failure::Usage(format!(
+            "[shaft]: the file is of a machine of {} bearings; allowed: the scenario of one bearing, under what `brinell check` says that it carries",
+            of.seats.len()
+        )));
+    }
     if s.simulation.model != ModelKind::Full {
         return Err(Failure::Usage(format!(
             "simulation.model = \"{}\": coefficients are those of rings that do not tilt and elements that move by themselves; allowed: \"full\", as by \
@@ -174,7 +180,11 @@ fn values(option: &str, unit: &str, text: &str, least: f64) -> Result<Vec<f64>, 
     // The sweep's lists, of the key of that unit.
     let key = if least > 0.0 { "operation.load_n" } else { "operation.speed_rpm" };
     let range = format!("{} {unit}, at most {MOST:e}", if least > 0.0 { "more than 0" } else { "0 or more" });
-    let refuse = |value: &str, why: &str| Failure::Usage(format!("{option} {value}: {why}\n  allowed: {range}"));
+    let refuse = |value: &str, why: &str| {
+        Failure::Usage(format!(
+            "{option} {value}: {why}\n  allowed: {range}; a list (500,1000) or a range (0:5000:500)"
+        ))
+    };
     let axis =
         Axis::vary(&format!("{key}={text}")).map_err(|error| refuse(text, &error.to_string().replace(key, option)))?;
     let mut all = Vec::new();

@@ -113,5 +113,7 @@ fn regress_what_cannot_be_is_refused_with_value_and_range() {
         let call = brinell(folder.path(), &[&["coefficients", "b.toml"], more].concat()).exits(2).complains(parts);
         assert_eq!(call.out, "", "{more:?}");
     }
-    assert_eq!(files(folder.path()), ["b.toml"]);
+    brinell(folder.path(), &["init", "--template", "machine", "m.toml"]).exits(0);
+    brinell(folder.path(), &["coefficients", "m.toml"]).exits(2).complains(&["[shaft]", "2 bearings", "one bearing"]);
+    assert!(!folder.path().join("out").exists());
 }

@@ -2,9 +2,10 @@
 
 use brinell::coefficients::{Coefficients, coefficients, force_over_cage_angle};
 use brinell::model::{Model, Motion, series_stiffness};
-use brinell::scenario::Scenario;
-use brinell::solver::System;
+use brinell::scenario::{Accuracy, Operation, Scenario, Speed};
+use brinell::solver::{Stepper, System};
 use brinell::statics::{Balance, Problem, solve};
+use brinell::{accuracy, start};
 use std::f64::consts::TAU;
 
 /// The NN3007 with 38 rollers.
@@ -149,6 +150,43 @@ fn prop_damping_takes_the_power_that_the_equations_of_motion_take() {
         let expected: f64 = (0..2).map(|i| (0..2).map(|j| v[i] * c[i][j] * v[j]).sum::<f64>()).sum();
         close(motion.ws.power.contact, expected, 1e-4);
     }
+}
+
+#[test]
+fn prop_a_ring_rings_and_decays_as_its_coefficients_say() {
+    // Without friction, and in centred geometry, so that nothing moves the rollers along the raceways meanwhile. A knock of 1 mm/s on an inner ring of 50 kg, as it moves by the equations of motion: frequency and decay of the oscillator m, k, c.
+    let s = scenario(
+        &format!("{ROLLERS}radial_clearance_um = -20\ninner_ring_mass_kg = 50\n"),
+        "inner_damping_ns_per_m = 0\nouter_stiffness_n_per_m = 1e12\n[housing]\nmass_kg = 1e7\n[contact]\nroughness_um = 1e-4\n[friction]\nraceway_coefficient = 0\n\
+         rolling_coefficient = 0\n[simulation]\nstart = \"equilibrium\"\ngeometry = \"centred\"\n",
+    );
+    let load = [1000.0, 0.0];
+    let s = Scenario { operation: Operation { speed_rpm: Speed::Constant(60.0), load_n: load, ..s.operation }, ..s };
+    let model = Model::new(&s).unwrap();
+    let of = coefficients(&model, load, TAU).unwrap();
+    let (m, k, c) = (model.inertia.inner_ring, of.stiffness[0][0], of.damping[0][0]);
+    let mut y = start::state(&model).unwrap();
+    let (at, rest) = (model.layout.inner(), y[model.layout.inner()]);
+    y[model.layout.dof() + at] = 1e-3;
+    let mut motion = Motion::new(&model);
+    let mut stepper = Stepper::new(&mut motion, accuracy::settings(&model, Accuracy::Standard), 0.0, &y);
+    // Times at which it passes its rest upwards, and the heights before them.
+    let (mut upwards, mut heights) = (Vec::new(), Vec::new());
+    let (mut before, mut height) = ((0.0, 0.0), 0.0_f64);
+    while upwards.len() < 20 {
+        stepper.step(&mut motion).unwrap();
+        let now = (stepper.t(), stepper.y()[at] - rest);
+        assert!(now.0 < 0.1, "{upwards:?}");
+        height = height.max(now.1);
+        if before.1 < 0.0 && now.1 >= 0.0 {
+            upwards.push(before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1));
+            heights.push(std::mem::take(&mut height));
+        }
+        before = now;
+    }
+    let time = upwards[19] - upwards[0];
+    close(TAU * 19.0 / time, (k / m - (0.5 * c / m).powi(2)).sqrt(), 5e-4);
+    close((heights[0] / heights[19]).ln() / time, 0.5 * c / m, 5e-3);
 }
 
 #[test]
