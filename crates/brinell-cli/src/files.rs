@@ -92,8 +92,7 @@ impl Source {
         if !quiet && !loaded.warnings.is_empty() {
             print_problems(&self.name, &self.text(), &loaded.warnings);
         }
-        let damage = loaded.scenario.defects.iter();
-        for file in damage.flat_map(|defect| [defect.shape.file(), defect.table_file()]).flatten() {
+        for file in loaded.scenario.files() {
             let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
             inputs.add(&folder(&self.path).join(file));
         }

@@ -1,7 +1,8 @@
 //! The files of damage that a scenario's text names, told of with the text's lines.
 
 use crate::Unresolved;
-use crate::resolve::{Found, resolve_noting};
+use crate::named_files::resolve_noting;
+use crate::resolve::Found;
 use brinell::document::{Loaded, Problem, Problems, Severity, locate};
 use std::path::Path;
 

@@ -22,10 +22,10 @@ const DOUBTFUL_RIM: f64 = 0.05;
 /// Depths are kept to this many parts of a um: 0.1 nm, below any instrument's noise.
 const PARTS_OF_UM: f64 = 1e4;
 
-/// A defect whose file cannot be its shape.
+/// A file that a scenario names and that cannot be what it names it for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unresolved {
-    /// Which one, from 0.
+    /// Which one of its bearing, from 0; 0 where the file is another one.
     pub defect: usize,
     /// The scenario's key that names the file.
     pub key: String,
@@ -38,8 +38,11 @@ pub struct Unresolved {
 impl fmt::Display for Unresolved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { key, file, .. } = self;
-        let number = self.defect + 1;
-        write!(f, "{key} = \"{file}\" (defect {number}): {}", self.message)
+        write!(f, "{key} = \"{file}\"")?;
+        if key.contains("defects.") {
+            write!(f, " (defect {})", self.defect + 1)?;
+        }
+        write!(f, ": {}", self.message)
     }
 }
 
@@ -57,18 +60,9 @@ fn named(defect: usize, shape: &Shape) -> Option<(String, String)> {
     shape.file().map(|file| (key, file.to_owned()))
 }
 
-/// Reads every file of damage that a scenario names, from `folder` where its path is not absolute, and puts its
-/// outline, depth map or table in place. The checks of the scenario run again on what came out. Gives warnings.
-///
-/// # Errors
-/// Every file that could not be read or does not fit the bearing; the scenario is then as it was.
-pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Vec<Unresolved>> {
-    resolve_noting(scenario, folder, &mut Vec::new())
-}
-
 /// Reads the table of a defect from its file; `None` where it names none.
 fn table(defect: &Defect, folder: &Path) -> Option<Result<TableData, String>> {
-    let read = |file: &str| table_of_bytes(&bytes(&folder.join(file), LARGEST)?);
+    let read = |file: &str| table_of_bytes(&read_bytes(&folder.join(file), LARGEST)?);
     defect.table_file().map(read)
 }
 
@@ -96,8 +90,8 @@ pub(crate) struct Found {
     pub(crate) form: Option<Form>,
 }
 
-/// [`resolve`], with what was found beside geometry.
-pub(crate) fn resolve_noting(
+/// Reads the files of damage of one bearing, with what was found beside geometry.
+pub(crate) fn resolve_one(
     scenario: &mut Scenario,
     folder: &Path,
     found: &mut Vec<Found>,
@@ -313,7 +307,7 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
 
 /// The content of a shape's file.
 pub(crate) fn bytes_of(shape: &Shape, folder: &Path) -> Result<Vec<u8>, String> {
-    bytes(&folder.join(shape.file().unwrap_or_default()), largest(shape))
+    read_bytes(&folder.join(shape.file().unwrap_or_default()), largest(shape))
 }
 
 /// Bytes of a file for a shape at most.
@@ -324,7 +318,7 @@ fn largest(shape: &Shape) -> u64 {
     }
 }
 
-fn bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
+pub(crate) fn read_bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
     let failed = |error| format!("cannot read {}: {error}", path.display());
     let facts = std::fs::metadata(path).map_err(failed)?;
     if !facts.is_file() {

@@ -41,4 +41,4 @@ mod reduce;
 
 pub use beam::{Beam, Disc, Material, Part, Spring};
 pub use equations::{Equations, Linear, Mode, Port, Whirl};
-pub use reduce::{Reduced, reduce};
+pub use reduce::{Reduced, normal_modes, reduce};

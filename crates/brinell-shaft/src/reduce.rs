@@ -76,6 +76,20 @@ pub fn reduce(beam: &Beam, band: f64, ports: &[Port], damping: f64, is_rigid: bo
     Some(Reduced { shapes, frequencies, equations })
 }
 
+/// Natural frequencies of K u = w^2 M u, rad/s and ascending, each with its shape of modal mass 1: u^T M u = 1. Matrices are symmetric, row by row.
+///
+/// `None` where M is not positive definite, or a row has another length.
+pub fn normal_modes(mass: &[Vec<f64>], stiffness: &[Vec<f64>]) -> Option<Vec<(f64, Vec<f64>)>> {
+    let n = mass.len();
+    let square = |rows: &[Vec<f64>]| rows.len() == n && rows.iter().all(|row| row.len() == n);
+    if n == 0 || !square(mass) || !square(stiffness) || !mass.iter().chain(stiffness).flatten().all(|x| x.is_finite()) {
+        return None;
+    }
+    let matrix = |rows: &[Vec<f64>]| DMatrix::from_fn(n, n, |i, j| rows[i][j]);
+    let (frequencies, shapes) = modes(&matrix(mass), &matrix(stiffness))?;
+    Some(frequencies.into_iter().zip(shapes.column_iter().map(|shape| shape.iter().copied().collect())).collect())
+}
+
 /// Natural frequencies, rad/s and ascending, and M-orthonormal shapes of K u = w^2 M u.
 fn modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     let root = mass.clone().cholesky()?.l();

@@ -45,6 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         inertia: 0.2,
         support: support(2e7, 800.0),
         tilt_support: support(2e5, 8.0),
+        modes: Vec::new(),
         sensors: [("drive_end", DRIVE_END), ("fan_end", FAN_END)]
             .map(|(name, z)| (name.into(), z, 90f64.to_radians()))
             .into(),

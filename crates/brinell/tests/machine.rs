@@ -2,8 +2,8 @@
 
 use brinell::accuracy::settings;
 use brinell::machine::{
-    Disc, Housing, Linear, Machine, MachineMotion, Material, Mode, OnShaft, Part, Plan, PlanError, Point, Shaft,
-    Spring, Structure,
+    Disc, Housing, HousingMode, Linear, Machine, MachineMotion, Material, Mode, OnShaft, Part, Plan, PlanError, Point,
+    Shaft, Spring, Structure,
 };
 use brinell::model::{Model, Motion, Power, Support};
 use brinell::scenario::{Accuracy, LoadOn, Scenario, Speed, Start};
@@ -38,6 +38,7 @@ fn plan(scenarios: [&Scenario; 2], (is_rigid, in_housing): (bool, bool), load: [
         inertia: 0.05,
         support: Support { stiffness: 1.1e8, damping: 1500.0 },
         tilt_support: Support { stiffness: 1.1e6, damping: 15.0 },
+        modes: Vec::new(),
         sensors: [("sensor1", AT[0]), ("sensor2", AT[1])].map(|(name, z)| (name.into(), z, FRAC_PI_2)).into(),
     };
     let model = |k: usize| Model::new(scenarios[k]).unwrap();
@@ -363,4 +364,58 @@ fn analytic_a_rigid_shaft_in_a_rigid_housing_has_the_frequencies_of_two_masses()
         let near = modes.iter().any(|mode| (undamped(mode) / wanted - 1.0).abs() < 1e-3);
         assert!(near, "{wanted} among {modes:?}");
     }
+}
+
+/// A housing that can only shift: as a rigid body that tilts do not move, and as two modes of the same mass.
+#[test]
+fn analytic_a_rigid_body_is_two_modes_and_rings_add_to_their_mass() {
+    let mut s = of("6205", "full");
+    // What a housing of modes weighs is not known.
+    s.operation.gravity_m_per_s2 = [0.0; 2];
+    s.simulation.start = Start::Equilibrium;
+    let made = |by_modes: bool| {
+        let mut plan = plan([&s, &s], (false, true), [0.0, -900.0], 5e-5);
+        let housing = &mut plan.housings[0];
+        let (mass, Support { stiffness, damping }) = (housing.mass, housing.support);
+        housing.tilt_support.stiffness = 1e9;
+        housing.inertia = 1e3;
+        if by_modes {
+            let frequency = (stiffness / mass).sqrt();
+            let share = mass.sqrt().recip();
+            let mode = |axis: usize| HousingMode {
+                frequency,
+                damping_ratio: damping / (2.0 * mass * frequency),
+                seats: vec![if axis == 0 { [share, 0.0] } else { [0.0, share] }; 2],
+                sensors: vec![if axis == 0 { 0.0 } else { share }; 2],
+            };
+            housing.modes = vec![mode(0), mode(1)];
+        }
+        plan.machine().unwrap()
+    };
+    let [body, modes] = [false, true].map(made);
+    let t = 0.01;
+    let steps = |machine: &Machine| {
+        let settings = Settings { tolerance: 1e9, max_step: 5e-7, ..machine.settings(Accuracy::Standard) };
+        let mut motion = MachineMotion::new(machine);
+        let (stepper, _) = run(&mut motion, settings, &machine.initial().unwrap(), t);
+        let mut y = vec![0.0; 2 * machine.dof()];
+        stepper.interpolate(t, &mut y);
+        let point = |k: usize| y[machine.point(k)];
+        let ring = |k: usize| y[machine.bearing(k) + machine.bearings[k].model.layout.outer() + 1];
+        [point(1), point(2), point(3), ring(0), ring(1)]
+    };
+    for (a, b) in steps(&body).into_iter().zip(steps(&modes)) {
+        assert!((a - b).abs() < 1e-5 * a.abs().max(1e-6), "{a:e} {b:e}");
+    }
+    let sag = |machine: &Machine| machine.balance().unwrap().positions[machine.bearing(0)..].to_vec();
+    let at = body.bearings[0].model.layout.outer() + 1;
+    assert!((sag(&body)[at] - sag(&modes)[at]).abs() < 1e-9, "{:e} {:e}", sag(&body)[at], sag(&modes)[at]);
+    assert!(matches!(refused_modes(&s), PlanError::Modes { housing: 1, seats: 2, sensors: 2 }));
+}
+
+fn refused_modes(s: &Scenario) -> PlanError {
+    let mut plan = plan([s, s], (false, true), [0.0, -900.0], 0.0);
+    plan.housings[0].modes =
+        vec![HousingMode { frequency: 1e3, damping_ratio: 0.1, seats: vec![[1.0, 0.0]], sensors: Vec::new() }];
+    plan.machine().unwrap_err()
 }

@@ -48,6 +48,12 @@ impl Loaded {
         }
     }
 
+    /// A key of a defect of the bearing that is observed.
+    fn damage_key(&self, defect: usize, rest: &str) -> String {
+        let of = self.scenario.machine.as_ref().map_or(String::new(), |machine| format!("bearing.{}.", machine.lead));
+        format!("{of}defects.{defect}.{rest}")
+    }
+
     /// Says of a defect whose shape was put in place of a file's name that it came from that file.
     pub fn read_from(&mut self, defect: usize, file: &str) {
         let name = match self.scenario.defects.get(defect).map(|d| &d.shape) {
@@ -57,7 +63,7 @@ impl Loaded {
             _ => return,
         };
         self.provenance.push(Provenance {
-            key: format!("defects.{defect}.shape.{name}"),
+            key: self.damage_key(defect, &format!("shape.{name}")),
             value: String::new(),
             unit: if name.ends_with("um") { "um" } else { "mm" },
             origin: Origin::DamageFile(file.to_string()),
@@ -68,7 +74,7 @@ impl Loaded {
 
     /// Says of a defect whose table was put in place of a file's name that it came from that file.
     pub fn table_read_from(&mut self, defect: usize, file: &str) {
-        let key = format!("defects.{defect}.table");
+        let key = self.damage_key(defect, "table");
         if let Some(entry) = self.provenance.iter_mut().find(|entry| entry.key == key) {
             entry.value = String::new();
             entry.origin = Origin::DamageFile(file.to_string());
@@ -88,7 +94,7 @@ impl Loaded {
 
     /// Behind all that the file says of the shape: where a written scenario has it.
     fn found(&mut self, defect: usize, kind: &str, name: &str, unit: &'static str, value: f64, origin: Origin) {
-        let of_shape = format!("defects.{defect}.shape.{kind}.");
+        let of_shape = self.damage_key(defect, &format!("shape.{kind}."));
         let place = self.provenance.iter().rposition(|p| p.key.starts_with(&of_shape));
         let key = of_shape + name;
         let found = Provenance { key, value: toml_text::float(value), unit, origin, assumed: true, plausible: None };

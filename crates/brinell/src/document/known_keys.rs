@@ -58,8 +58,8 @@ fn collect(section: &str, schema: &Json, keys: &mut Vec<(String, String)>) {
 mod tests {
     use super::*;
     use crate::scenario::{
-        Accelerometer, Bearing, Cage, Contact, Coupling, Defect, DepthGrid, Disc, Friction, Housing, Lubricant, Operation,
-        PathMode, RigidHousing, Seat, Shaft, ShaftLoad, Simulation, Support, Unbalance,
+        Accelerometer, Bearing, Cage, Contact, Coupling, Defect, DepthGrid, Disc, Friction, Housing, Lubricant,
+        MachineHousing, Operation, PathMode, Seat, Shaft, ShaftLoad, Simulation, Support, Unbalance,
     };
 
     /// A field without its line in the lists of keys would stay what nobody gave: NaN, or 0.
@@ -94,7 +94,7 @@ mod tests {
             ("shaft.load", ShaftLoad::FIELDS),
             ("shaft.coupling", Coupling::FIELDS),
             ("bearing", Seat::FIELDS),
-            ("housing", RigidHousing::FIELDS),
+            ("housing", MachineHousing::FIELDS),
             ("sensor", Accelerometer::FIELDS),
         ] {
             for field in fields {

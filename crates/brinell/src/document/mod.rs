@@ -19,6 +19,7 @@ mod keys;
 mod known_keys;
 mod load;
 mod machine;
+mod modes_value;
 mod problem;
 mod problems;
 mod profile_value;

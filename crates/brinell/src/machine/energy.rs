@@ -58,6 +58,10 @@ impl Machine {
         let (all, index) = (y, k);
         let (q, v) = y.split_at(self.dof());
         let structure = &self.structures[k];
+        // Of what bends against the ground in ways of its own no sum of forces is known.
+        if !structure.is_body {
+            return 0.0;
+        }
         let (q, v, a) = (self.of_structure(k, q), self.of_structure(k, v), self.of_structure(k, a));
         let (driven, gravity) = (self.driven(t), self.leading().gravity);
         // What a rigid motion feels: no spring between the structure's own parts, and no gyroscopic term.

@@ -20,5 +20,5 @@ pub use balance::{Balance, Carried};
 pub use brinell_shaft::{Disc, Equations, Linear, Material, Mode, Part, Port, Spring, Whirl};
 pub use motion::{Evaluated, MachineMotion, Parts};
 pub(crate) use of_scenario::machine;
-pub use plan::{Housing, OnShaft, Plan, PlanError, Shaft};
+pub use plan::{Housing, HousingMode, OnShaft, Plan, PlanError, Shaft};
 pub use structure::{Row, Seat, Structure};

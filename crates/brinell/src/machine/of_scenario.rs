@@ -1,19 +1,28 @@
 //! The plan of the machine that a scenario describes.
 
-use super::plan::{Housing, OnShaft, Plan, PlanError, Shaft};
+use super::plan::{Housing, HousingMode, OnShaft, Plan, PlanError, Shaft};
 use super::{Machine, Material, Part, Spring};
 use crate::document::Problem;
 use crate::error::Error;
 use crate::model::{Model, Support};
-use crate::scenario::{self, SensorOn};
+use crate::scenario::{self, HousingModes, SensorOn};
+use brinell_shaft::normal_modes;
+use std::f64::consts::TAU;
 
 /// The machine of a scenario that has one, and the models of its bearings in the file's order.
 ///
 /// # Errors
 /// Where it makes none: [`Scenario::problems`](crate::Scenario::problems) says so too.
 pub(crate) fn machine(of: &scenario::Machine, models: Vec<Model>) -> Result<Machine, Error> {
+    if let Some(k) = of.housings.iter().position(|housing| matches!(housing.modes, Some(HousingModes::File(_)))) {
+        let message = "the file with its modes has not been read";
+        return Err(vec![Problem::error(format!("housing.{k}.modes"), message)].into());
+    }
     plan(of, models).machine().map_err(|error: PlanError| vec![Problem::error("shaft", error.to_string())].into())
 }
+
+/// Fastest mode of a housing's matrices that is kept, Hz.
+const FASTEST_HZ: f64 = 2e4;
 
 /// What `machine` makes it of.
 pub(crate) fn plan(of: &scenario::Machine, models: Vec<Model>) -> Plan {
@@ -58,19 +67,14 @@ pub(crate) fn plan(of: &scenario::Machine, models: Vec<Model>) -> Plan {
         damping_ratio: s.damping_ratio,
         is_rigid: s.rigid,
     };
-    let housing = |(k, h): (usize, &scenario::RigidHousing)| {
-        let within = of
-            .sensors
-            .iter()
-            .filter(|of_one| of_one.on == SensorOn::Housing && of.housing_of(of_one.housing) == Some(k));
-        Housing {
-            at: at(h.at_mm),
-            mass: h.mass_kg,
-            inertia: h.inertia_kg_m2,
-            support: Support { stiffness: h.stiffness_n_per_m, damping: h.damping_ns_per_m },
-            tilt_support: Support { stiffness: h.tilt_stiffness_nm_per_rad, damping: h.tilt_damping_nms_per_rad },
-            sensors: within.map(sensor).collect(),
-        }
+    let housing = |(k, h): (usize, &scenario::MachineHousing)| Housing {
+        at: at(h.at_mm),
+        mass: h.mass_kg,
+        inertia: h.inertia_kg_m2,
+        support: Support { stiffness: h.stiffness_n_per_m, damping: h.damping_ns_per_m },
+        tilt_support: Support { stiffness: h.tilt_stiffness_nm_per_rad, damping: h.tilt_damping_nms_per_rad },
+        sensors: of.sensors_on(k).map(sensor).collect(),
+        modes: modes_of(h, of.bearings_in(k).len(), of.sensors_on(k).count()),
     };
     let bearing = |(seat, model): (&scenario::Seat, Model)| OnShaft {
         model,
@@ -85,4 +89,26 @@ pub(crate) fn plan(of: &scenario::Machine, models: Vec<Model>) -> Plan {
         bearings: of.seats.iter().zip(models).map(bearing).collect(),
         housings: of.housings.iter().enumerate().map(housing).collect(),
     }
+}
+
+/// Modes of a housing, those of its matrices up to the fastest that a run follows; none of a rigid one.
+fn modes_of(housing: &scenario::MachineHousing, seats: usize, sensors: usize) -> Vec<HousingMode> {
+    if let Some(HousingModes::Read(modes)) = &housing.modes {
+        let mode = |mode: &scenario::HousingMode| HousingMode {
+            frequency: TAU * mode.frequency_hz,
+            damping_ratio: mode.damping_ratio,
+            seats: mode.seats.clone(),
+            sensors: mode.sensors.clone(),
+        };
+        return modes.iter().map(mode).collect();
+    }
+    let matrices = housing.mass_matrix_kg.as_ref().zip(housing.stiffness_matrix_n_per_m.as_ref());
+    let modes = matrices.and_then(|(mass, stiffness)| normal_modes(mass, stiffness)).unwrap_or_default();
+    let mode = |(frequency, shape): (f64, Vec<f64>)| HousingMode {
+        frequency,
+        damping_ratio: housing.damping_ratio,
+        seats: shape.chunks_exact(2).take(seats).map(|pair| [pair[0], pair[1]]).collect(),
+        sensors: shape[2 * seats..][..sensors].to_vec(),
+    };
+    modes.into_iter().filter(|(frequency, _)| *frequency <= TAU * FASTEST_HZ).map(mode).collect()
 }

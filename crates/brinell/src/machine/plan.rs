@@ -1,7 +1,7 @@
 //! What a machine is to be, and the machine that it makes.
 
 use super::assembly::{Machine, Mount, Point};
-use super::structure::{Seat, Structure};
+use super::structure::{Row, Seat, Structure};
 use crate::model::{Model, Support};
 use crate::steel::{DENSITY, POISSONS_RATIO, YOUNGS_MODULUS_GPA};
 use brinell_shaft::{Beam, Disc, Material, Part, Port, Reduced, Spring, reduce};
@@ -101,6 +101,21 @@ pub struct Housing {
     pub tilt_support: Support,
     /// Accelerometers: name; Z, m; direction, rad from X.
     pub sensors: Vec<(String, f64, f64)>,
+    /// Modes of an elastic housing without the outer rings in it; where there are any, only they and the sensors' names count.
+    pub modes: Vec<HousingMode>,
+}
+
+/// A mode of a housing, its shape of modal mass 1 kg.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HousingMode {
+    /// Natural frequency without damping, rad/s.
+    pub frequency: f64,
+    /// Share of critical damping.
+    pub damping_ratio: f64,
+    /// x and y at the seat of each bearing in it, in the plan's order.
+    pub seats: Vec<[f64; 2]>,
+    /// At each sensor, along its direction.
+    pub sensors: Vec<f64>,
 }
 
 /// A machine that is to be made.
@@ -138,6 +153,16 @@ pub enum PlanError {
         what: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// Shapes of a housing's modes that do not fit it.
+    #[error("modes of housing {housing}: each has {seats} seats and {sensors} sensors")]
+    Modes {
+        /// From 1.
+        housing: usize,
+        /// How many bearings sit in it.
+        seats: usize,
+        /// How many sensors are on it.
+        sensors: usize,
     },
     /// A housing that is not there.
     #[error("bearing {bearing} sits in housing {housing}, of which there are {count}")]
@@ -182,8 +207,25 @@ impl Plan {
             points.push(Point { name: format!("shaft.{name}"), is_sensor: true, structure: 0, row });
         }
         let mut structures = vec![of_shaft];
-        let mut bodies = Vec::new();
+        let mut seats_of: Vec<Box<dyn Fn(usize) -> Seat>> = Vec::new();
         for (k, housing) in housings.iter().enumerate() {
+            if !housing.modes.is_empty() {
+                let (structure, seats, sensors) = bent(k, housing, &bearings)?;
+                structures.push(structure);
+                for ((name, ..), row) in housing.sensors.iter().zip(sensors) {
+                    points.push(Point {
+                        name: format!("housing{}.{name}", k + 1),
+                        is_sensor: true,
+                        structure: k + 1,
+                        row,
+                    });
+                }
+                seats_of.push(Box::new(move |number| {
+                    let found = seats.iter().find(|(of, _)| *of == number);
+                    found.map(|(_, seat)| seat.clone()).expect("every bearing in it has a seat")
+                }));
+                continue;
+            }
             let within = |bearing: &&OnShaft| bearing.housing == Some(k) && bearing.fit.is_none();
             let body = Rigid::new(housing, bearings.iter().filter(within));
             structures.push(Structure::rigid((body.mass, body.inertia), (housing.support, housing.tilt_support)));
@@ -191,14 +233,15 @@ impl Plan {
                 let row = body.seat(*z).along(*direction);
                 points.push(Point { name: format!("housing{}.{name}", k + 1), is_sensor: true, structure: k + 1, row });
             }
-            bodies.push(body);
+            let places: Vec<f64> = bearings.iter().map(|bearing| bearing.at).collect();
+            seats_of.push(Box::new(move |number| body.seat(places[number])));
         }
         let mut fits = Vec::new();
         let mut place = |(number, mut bearing): (usize, OnShaft)| {
             let inner = Mount { structure: 0, seat: seat(bearing.at), shift: [0.0; 2], tilt: [0.0; 2] };
             let outer = bearing.housing.map(|k| Mount {
                 structure: k + 1,
-                seat: bodies[k].seat(bearing.at),
+                seat: seats_of[k](number),
                 shift: bearing.offset,
                 tilt: bearing.misalignment,
             });
@@ -227,6 +270,7 @@ impl Plan {
         });
         let of_housings = housings
             .iter()
+            .filter(|of| of.modes.is_empty())
             .flat_map(|of| [("a housing's mass, kg", of.mass), ("a housing's moment of inertia, kg m^2", of.inertia)]);
         if let Some((what, value)) = parts.chain(of_housings).find(|(_, value)| value.is_nan() || *value <= 0.0) {
             return Err(PlanError::NotPositive { what, value });
@@ -285,6 +329,32 @@ fn bend(shaft: &Shaft, bearings: &[OnShaft]) -> Result<(Beam, Reduced), PlanErro
     let reduced = reduce(&beam, shaft.band, &ports, shaft.damping_ratio, shaft.is_rigid)
         .ok_or(PlanError::NotPositive { what: "the shaft's density, kg/m^3", value: shaft.material.density })?;
     Ok((beam, reduced))
+}
+
+/// An elastic housing, with the seats of the bearings in it and its sensors.
+type Bent = (Structure, Vec<(usize, Seat)>, Vec<Row>);
+
+fn bent(k: usize, housing: &Housing, bearings: &[OnShaft]) -> Result<Bent, PlanError> {
+    let within: Vec<usize> = (0..bearings.len()).filter(|number| bearings[*number].housing == Some(k)).collect();
+    let modes = &housing.modes;
+    let fits = |mode: &&HousingMode| mode.seats.len() == within.len() && mode.sensors.len() == housing.sensors.len();
+    if modes.iter().filter(fits).count() < modes.len() {
+        return Err(PlanError::Modes { housing: k + 1, seats: within.len(), sensors: housing.sensors.len() });
+    }
+    let squares: Vec<f64> = modes.iter().map(|mode| mode.frequency.powi(2)).collect();
+    let dampers: Vec<f64> = modes.iter().map(|mode| 2.0 * mode.damping_ratio * mode.frequency).collect();
+    let at =
+        |place: usize| [0, 1].map(|axis: usize| modes.iter().map(|mode| mode.seats[place][axis]).collect::<Vec<f64>>());
+    // A ring on a fit has its mass to itself.
+    let rigid = within.iter().enumerate().filter(|(_, number)| bearings[**number].fit.is_none());
+    let rings: Vec<_> = rigid.map(|(place, number)| (bearings[*number].model.inertia.outer_ring, at(place))).collect();
+    let (structure, row) = Structure::elastic((&squares, &dampers), &rings)
+        .ok_or(PlanError::NotPositive { what: "an outer ring's mass, kg", value: f64::NAN })?;
+    let seat = |(place, number): (usize, &usize)| (*number, Structure::seat_of_elastic(at(place).map(|of| row(&of))));
+    let seats = within.iter().enumerate().map(seat).collect();
+    let sensors =
+        (0..housing.sensors.len()).map(|k| row(&modes.iter().map(|mode| mode.sensors[k]).collect::<Vec<_>>()));
+    Ok((structure, seats, sensors.collect()))
 }
 
 /// A housing with the outer rings in it.

@@ -6,14 +6,15 @@ use brinell_shaft::{Equations, Port};
 
 impl Machine {
     /// Equations of the shaft, of housings and of outer rings on supports of their own, in their modes, and of each bearing the place that
-    /// its stiffness and damping act at: the inner ring's displacement less the outer one's. Bearings hold no tilt here.
+    /// its stiffness and damping act at: the inner ring's displacement less the outer one's. Bearings hold no tilt here, and housings of modes
+    /// of their own, which differ from plane to plane, stand still.
     pub fn linearised(&self) -> (Equations, Vec<Port>) {
         // In a plane a structure has half of its coordinates, and a ring on its own support one.
         let mut starts = Vec::new();
         let mut size = 0;
         for structure in &self.structures {
             starts.push(size);
-            size += structure.size() / 2;
+            size += if structure.is_body { structure.size() / 2 } else { 0 };
         }
         let alone: Vec<Option<usize>> = (self.bearings.iter())
             .map(|seated| {
@@ -24,7 +25,7 @@ impl Machine {
             .collect();
         let mut equations = Equations::new(size);
         equations.mass.fill_with_identity();
-        for (structure, &start) in self.structures.iter().zip(&starts) {
+        for (structure, &start) in self.structures.iter().zip(&starts).filter(|(structure, _)| structure.is_body) {
             let half = structure.size() / 2;
             for k in 0..half {
                 // Of a rigid body shifts come before tilts, of a shaft X before Y: either way the first plane's are those of `in_first_plane`.
@@ -42,6 +43,9 @@ impl Machine {
             let add = |port: &mut Port, mount: &Mount, sign: f64| {
                 let structure = &self.structures[mount.structure];
                 let row: &Row = &mount.seat.shift[0];
+                if !structure.is_body {
+                    return;
+                }
                 for k in 0..structure.size() / 2 {
                     port.0[starts[mount.structure] + k] += sign * row.share(structure.in_first_plane(k));
                 }

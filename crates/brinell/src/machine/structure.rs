@@ -2,7 +2,7 @@
 
 use crate::model::Support;
 use crate::solver::DAMPED_CONTACT;
-use brinell_shaft::{Beam, Port, Reduced};
+use brinell_shaft::{Beam, Port, Reduced, normal_modes};
 
 /// A place of a body and a direction: the displacement or tilt there is the product of its numbers with the coordinates, and a force or moment
 /// there pushes the coordinates by the same numbers times it.
@@ -90,6 +90,8 @@ pub struct Structure {
     pub(super) load: Vec<f64>,
     /// Unbalance where the shaft stands at 0 and a quarter of a turn on, kg m.
     pub(super) unbalance: [Vec<f64>; 2],
+    /// Whether it moves as a whole, the same way in both planes: a shaft, a rigid body.
+    pub(super) is_body: bool,
 }
 
 impl Structure {
@@ -102,6 +104,7 @@ impl Structure {
             momentum,
             load: zeros.clone(),
             unbalance: [zeros.clone(), zeros],
+            is_body: true,
         }
     }
 
@@ -143,6 +146,44 @@ impl Structure {
     /// G, row by row, at 1 rad/s.
     pub(super) fn gyroscopic_rows(&self) -> impl Iterator<Item = &[f64]> {
         self.gyroscopic.chunks_exact((self.size() / 2).max(1))
+    }
+
+    /// A housing of these modes, each with its shape, and with rings of these masses (kg) on it, where `seats[ring][axis]` are the
+    /// displacements in each mode; and the rows that rows over the modes become. `None` where a mass is not one.
+    pub fn elastic(
+        (squares, dampers): (&[f64], &[f64]),
+        rings: &[(f64, [Vec<f64>; 2])],
+    ) -> Option<(Self, impl Fn(&[f64]) -> Row + use<>)> {
+        let n = squares.len();
+        let diagonal = |of: &[f64]| -> Vec<Vec<f64>> {
+            (0..n).map(|i| (0..n).map(|j| if i == j { of[i] } else { 0.0 }).collect()).collect()
+        };
+        let mut mass = diagonal(&vec![1.0; n]);
+        for (ring, places) in rings {
+            for place in places {
+                for i in 0..n {
+                    (0..n).for_each(|j| mass[i][j] += ring * place[i] * place[j]);
+                }
+            }
+        }
+        let modes = normal_modes(&mass, &diagonal(squares))?;
+        let taken = |shape: &Vec<f64>| -> f64 { shape.iter().zip(dampers).map(|(u, damper)| damper * u * u).sum() };
+        let (squares, dampers) = modes.iter().map(|(w, shape)| (w * w, taken(shape))).unzip();
+        let shapes: Vec<Vec<f64>> = modes.into_iter().map(|(_, shape)| shape).collect();
+        let row = move |of: &[f64]| Row {
+            from: 0,
+            values: shapes.iter().map(|shape| shape.iter().zip(of).map(|(u, share)| u * share).sum()).collect(),
+        };
+        let momentum = [0, 1].map(|axis: usize| {
+            let sum = (0..n).map(|k| rings.iter().map(|(ring, places)| ring * places[axis][k]).sum::<f64>());
+            row(&sum.collect::<Vec<_>>())
+        });
+        Some((Self { is_body: false, ..Self::new(squares, dampers, momentum) }, row))
+    }
+
+    /// A place of it: x and y, without tilt.
+    pub(super) fn seat_of_elastic(shift: [Row; 2]) -> Seat {
+        Seat { shift, tilt: [0, 1].map(|_| Row { from: 0, values: Vec::new() }) }
     }
 
     /// Coordinates.

@@ -25,7 +25,7 @@ sections! {
         /// The others, in order. Of `operation` and `simulation` they hold the same.
         pub others: Vec<Scenario>,
         /// Housings.
-        pub housings: Vec<RigidHousing>,
+        pub housings: Vec<MachineHousing>,
         /// Accelerometers.
         pub sensors: Vec<Accelerometer>,
     }
@@ -123,7 +123,15 @@ sections! {
     }
 
     /// `[[housing]]`: a rigid body on springs, or modes.
-    pub struct RigidHousing {
+    pub struct MachineHousing {
+        /// Modes in place of a rigid body.
+        pub modes: Option<HousingModes>,
+        /// M in place of these: of x and y of each seat of the bearings in it, of each sensor on it along its direction, and of anything else.
+        pub mass_matrix_kg: Option<Vec<Vec<f64>>>,
+        /// K of the same.
+        pub stiffness_matrix_n_per_m: Option<Vec<Vec<f64>>>,
+        /// Of the modes of these matrices.
+        pub damping_ratio: f64,
         /// Z of its centre of mass, mm.
         pub at_mm: f64,
         /// kg.
@@ -155,7 +163,93 @@ sections! {
     }
 }
 
+/// Modes of a housing without the outer rings in it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum HousingModes {
+    /// Name of a CSV file with them.
+    File(String),
+    /// They themselves.
+    Read(Vec<HousingMode>),
+}
+
+/// A mode of a housing, its shape of modal mass 1 kg: 1/sqrt(kg).
+#[derive(Debug, Clone, PartialEq)]
+pub struct HousingMode {
+    /// Undamped natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Share of critical damping.
+    pub damping_ratio: f64,
+    /// [x, y] at the seat of each bearing in the housing, in the file's order.
+    pub seats: Vec<[f64; 2]>,
+    /// At each sensor on the housing along its direction, in the file's order.
+    pub sensors: Vec<f64>,
+}
+
+impl MachineHousing {
+    /// Whether it is a rigid body.
+    pub fn is_rigid(&self) -> bool {
+        self.modes.is_none() && self.mass_matrix_kg.is_none() && self.stiffness_matrix_n_per_m.is_none()
+    }
+}
+
+impl HousingMode {
+    /// Those of a CSV text: a line with `frequency_hz,damping_ratio`, `bearing1_x,bearing1_y` of each bearing in the housing, by its number among
+    /// all, and the names of the sensors on it; then a line a mode.
+    ///
+    /// # Errors
+    /// In words, with the line.
+    pub fn from_csv_text(text: &str, bearings: &[usize], sensors: &[String]) -> Result<Vec<Self>, String> {
+        let seats = bearings.iter().flat_map(|k| [format!("bearing{}_x", k + 1), format!("bearing{}_y", k + 1)]);
+        let columns: Vec<String> = ["frequency_hz", "damping_ratio"]
+            .map(String::from)
+            .into_iter()
+            .chain(seats)
+            .chain(sensors.iter().cloned())
+            .collect();
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+        let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let needed = columns.join(",");
+        let (number, head) = lines.next().ok_or_else(|| format!("the file is empty; a line {needed} comes first"))?;
+        let names: Vec<&str> = head.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        let place = |column: &String| {
+            let found = names.iter().position(|name| name == column);
+            found.ok_or_else(|| format!("line {number}: there is no column {column}; needed are {needed}"))
+        };
+        let places: Vec<usize> = columns.iter().map(place).collect::<Result<_, _>>()?;
+        let mode = |(number, line): (usize, &str)| {
+            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+            let value = |(column, place): (&String, &usize)| {
+                let cell = cells.get(*place).copied().unwrap_or_default();
+                let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
+                value.ok_or_else(|| format!("line {number}: {column} is \"{cell}\"; a finite number is needed"))
+            };
+            let values: Vec<f64> = columns.iter().zip(&places).map(value).collect::<Result<_, _>>()?;
+            let (seats, sensors) = values[2..].split_at(2 * bearings.len());
+            Ok(Self {
+                frequency_hz: values[0],
+                damping_ratio: values[1],
+                seats: seats.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
+                sensors: sensors.to_vec(),
+            })
+        };
+        let modes: Vec<Self> = lines.map(mode).collect::<Result<_, String>>()?;
+        if modes.is_empty() { Err("there is no mode in it".into()) } else { Ok(modes) }
+    }
+}
+
 impl Machine {
+    /// The bearings whose outer rings sit in a housing, from 0.
+    pub fn bearings_in(&self, housing: usize) -> Vec<usize> {
+        (0..self.seats.len()).filter(|k| self.housing_of(self.seats[*k].housing) == Some(housing)).collect()
+    }
+
+    /// The sensors on a housing.
+    pub fn sensors_on(&self, housing: usize) -> impl Iterator<Item = &Accelerometer> {
+        let on = move |of: &&Accelerometer| of.on == SensorOn::Housing && self.housing_of(of.housing) == Some(housing);
+        self.sensors.iter().filter(on)
+    }
+
     /// How many bearings it has.
     pub fn bearings(&self) -> usize {
         self.seats.len()
@@ -196,6 +290,18 @@ impl Scenario {
     pub fn bearings(&self) -> Vec<Self> {
         let count = self.machine.as_ref().map_or(1, |machine| machine.bearings());
         (0..count).map(|k| self.bearing_of_machine(k)).collect()
+    }
+
+    /// Names of the files that it names, of damage and of housings' modes.
+    pub fn files(&self) -> Vec<&str> {
+        let others = self.machine.iter().flat_map(|machine| &machine.others);
+        let damage = self.defects.iter().chain(others.flat_map(|other| &other.defects));
+        let housings = self.machine.iter().flat_map(|machine| &machine.housings);
+        let modes = housings.filter_map(|housing| match &housing.modes {
+            Some(HousingModes::File(file)) => Some(file.as_str()),
+            _ => None,
+        });
+        damage.flat_map(|defect| [defect.shape.file(), defect.table_file()]).flatten().chain(modes).collect()
     }
 
     /// The same without damage of any bearing.

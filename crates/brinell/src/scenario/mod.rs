@@ -14,7 +14,10 @@ mod unset;
 pub(crate) use choices::words;
 pub use choices::*;
 pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
-pub use machine::{Accelerometer, Coupling, Disc, Machine, RigidHousing, Seat, SensorOn, Shaft, ShaftLoad, Unbalance};
+pub use machine::{
+    Accelerometer, Coupling, Disc, HousingMode, HousingModes, Machine, MachineHousing, Seat, SensorOn, Shaft,
+    ShaftLoad, Unbalance,
+};
 pub use sensor::{PathMode, Range, Sensor};
 pub(crate) use table::OfList;
 pub use table::{TableData, TableFault, TableValues};

@@ -116,3 +116,84 @@ fn prop_the_schema_of_machines_has_every_key_of_a_written_one() {
     }
     holds(&schema, &toml::Value::Table(written), "");
 }
+
+/// Two masses on springs, upright: by matrices, by modes and by a file of these.
+#[test]
+fn analytic_a_housing_by_matrices_is_one_by_its_modes() {
+    let bare = |housing: &str| {
+        let (before, rest) = MOTOR.split_once("[[housing]]").unwrap();
+        let (_, after) = rest.split_once("[[sensor]]").unwrap();
+        format!("{before}[[housing]]\n{housing}\n[[sensor]]{after}")
+    };
+    // x1, y1, x2, y2 and the two sensors, which move with what they sit on as light masses on stiff springs.
+    let mut mass = [[0.0; 6]; 6];
+    let mut stiffness = [[0.0; 6]; 6];
+    for k in 0..4 {
+        (mass[k][k], stiffness[k][k]) = (6.0, 2e7);
+    }
+    for (sensor, seat) in [(4, 1), (5, 3)] {
+        mass[sensor][sensor] = 0.01;
+        for (i, j, sign) in [(sensor, sensor, 1.0), (seat, seat, 1.0), (sensor, seat, -1.0), (seat, sensor, -1.0)] {
+            stiffness[i][j] += sign * 1e7;
+        }
+    }
+    let by = format!("mass_matrix_kg = {mass:?}\nstiffness_matrix_n_per_m = {stiffness:?}\ndamping_ratio = 0.03");
+    let loaded = good(&bare(&by));
+    assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
+    let housing = &loaded.scenario.machine.as_ref().unwrap().housings[0];
+    assert!(!housing.is_rigid() && housing.mass_kg == 0.0);
+    // Of the seats the frequency is that of 6 kg on 2e7 N/m, but for the sensors' 10 g.
+    let simulation = brinell::simulate::Simulation::new(&loaded.scenario).unwrap();
+    assert!(simulation.channels().iter().any(|channel| channel.name == "housing1.fan_end"));
+    let modes = "modes = [{ frequency_hz = 290.6, damping_ratio = 0.03, seats = [[0.0, 0.408], [0.0, 0.0]], sensors = [0.408, 0.0] }]";
+    let loaded = good(&bare(modes));
+    assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
+    assert!(brinell::simulate::Simulation::new(&loaded.scenario).is_ok());
+    for (housing, words) in [
+        (
+            "modes = [{ frequency_hz = 290.6, damping_ratio = 0.03, seats = [[0.0, 0.4]], sensors = [0.4, 0.0] }]",
+            "1 seats",
+        ),
+        (
+            "modes = [{ frequency_hz = 30000, damping_ratio = 0.03, seats = [[0.0, 0.4], [0, 0]], sensors = [0.4, 0.0] }]",
+            "",
+        ),
+        (
+            "modes = [{ frequency_hz = 300, seats = [[0.0, 0.4], [0, 0]], sensors = [0.4, 0.0] }]",
+            "missing: `damping_ratio`",
+        ),
+        ("modes = []", "expected"),
+        ("mass_matrix_kg = [[1.0]]\nstiffness_matrix_n_per_m = [[1.0]]", "1 coordinates"),
+        ("mass_matrix_kg = [[1.0]]", "one matrix without the other"),
+        (
+            "mass_matrix_kg = [[1.0, 2.0], [0.0, 1.0]]\nstiffness_matrix_n_per_m = [[1.0, 0.0], [0.0, 1.0]]",
+            "not symmetric",
+        ),
+        ("modes = \"m.csv\"\nmass_kg = 3", "has a meaning only where"),
+    ] {
+        let problems = read(&bare(housing), &[]).expect_err(housing);
+        let found = problems.iter().any(|p| p.key.starts_with("housing.0") && p.message.contains(words));
+        assert!(found, "{housing}: {}", report(&problems));
+    }
+}
+
+#[test]
+fn regress_modes_are_read_from_a_file_by_the_names_of_its_columns() {
+    use brinell::scenario::HousingMode;
+    let sensors = ["drive_end".to_owned()];
+    let text = "# of a hammer test\ndrive_end,frequency_hz,damping_ratio,bearing2_x,bearing2_y\n0.3,290,0.02,0,0.4\n";
+    let modes = HousingMode::from_csv_text(text, &[1], &sensors).unwrap();
+    assert_eq!(
+        modes,
+        [HousingMode { frequency_hz: 290.0, damping_ratio: 0.02, seats: vec![[0.0, 0.4]], sensors: vec![0.3] }]
+    );
+    for (text, words) in [
+        ("", "empty"),
+        ("frequency_hz,damping_ratio\n1,2\n", "line 1: there is no column bearing2_x"),
+        ("frequency_hz,damping_ratio,bearing2_x,bearing2_y,drive_end\n", "no mode"),
+        ("frequency_hz,damping_ratio,bearing2_x,bearing2_y,drive_end\n1,2,3,x,5\n", "line 2: bearing2_y is \"x\""),
+    ] {
+        let error = HousingMode::from_csv_text(text, &[1], &sensors).unwrap_err();
+        assert!(error.contains(words), "{error}");
+    }
+}

@@ -28,7 +28,13 @@ impl Plan {
             return Err(problems);
         }
         if plan.classes.is_empty() {
-            plan.classes.push(Class { name: "all".into(), share: 1.0, vary: Template::default(), defects: None, bearing: None });
+            plan.classes.push(Class {
+                name: "all".into(),
+                share: 1.0,
+                vary: Template::default(),
+                defects: None,
+                bearing: None,
+            });
         }
         Ok(plan)
     }

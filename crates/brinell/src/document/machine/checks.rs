@@ -6,7 +6,8 @@ use super::super::problems::Problems;
 use super::super::source::{Table, Value};
 use super::super::toml_text::float;
 use super::tables::{OF_THE_SHAFT, at, given};
-use crate::scenario::{Machine, ModelKind, Scenario, SensorOn};
+use crate::scenario::{HousingMode, HousingModes, Machine, MachineHousing, ModelKind, Scenario, SensorOn};
+use brinell_shaft::normal_modes;
 
 /// Adds what is wrong to the problems of the reader.
 pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Problems<'a>) -> Problems<'a> {
@@ -104,6 +105,9 @@ pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Probl
             wrong(format!("bearing.{k}.fit_stiffness_n_per_m"), message.into(), "a [[housing]]".into());
         }
     }
+    for (k, housing) in m.housings.iter().enumerate() {
+        of_modes(m, (k, housing), &mut wrong);
+    }
     let mut names = Vec::new();
     for (k, of) in m.sensors.iter().enumerate() {
         let key = || format!("sensor.{k}.name");
@@ -118,6 +122,66 @@ pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Probl
         names.push(place);
     }
     problems
+}
+
+/// Shapes and matrices of the seats and sensors that there are.
+fn of_modes(m: &Machine, (k, housing): (usize, &MachineHousing), wrong: &mut impl FnMut(String, String, String)) {
+    let key = |name: &str| format!("housing.{k}.{name}");
+    let (seats, sensors) = (m.bearings_in(k).len(), m.sensors_on(k).count());
+    let of_each = format!("{seats} seats and {sensors} sensors");
+    let unlike = |mode: &HousingMode| mode.seats.len() != seats || mode.sensors.len() != sensors;
+    if let Some(HousingModes::Read(modes)) = &housing.modes
+        && let Some(n) = modes.iter().position(unlike)
+    {
+        let (own_seats, own_sensors) = (modes[n].seats.len(), modes[n].sensors.len());
+        let message =
+            format!("mode {} has {own_seats} seats and {own_sensors} sensors, and the housing {of_each}", n + 1);
+        wrong(key("modes"), message, of_each.clone());
+    }
+    let matrices =
+        [("mass_matrix_kg", &housing.mass_matrix_kg), ("stiffness_matrix_n_per_m", &housing.stiffness_matrix_n_per_m)];
+    if housing.modes.is_some() && matrices.iter().any(|(_, of)| of.is_some()) {
+        wrong(key("modes"), "a housing has modes or matrices".into(), "one of them".into());
+        return;
+    }
+    let size = housing.mass_matrix_kg.as_ref().map_or(0, Vec::len);
+    for (name, matrix) in matrices {
+        match matrix {
+            None if matrices.iter().any(|(_, of)| of.is_some()) => {
+                wrong(key(name), "one matrix without the other".into(), "both of them".into());
+                return;
+            }
+            None => return,
+            Some(rows) if rows.iter().any(|row| row.len() != rows.len()) || rows.len() != size => {
+                wrong(
+                    key(name),
+                    format!("{} rows, not all of that length", rows.len()),
+                    format!("{size} rows of {size} numbers"),
+                );
+                return;
+            }
+            Some(rows) => {
+                let largest = rows.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let skew = (0..size).any(|i| (0..i).any(|j| (rows[i][j] - rows[j][i]).abs() > 1e-6 * largest));
+                if skew {
+                    wrong(key(name), "not symmetric".into(), "a symmetric matrix".into());
+                    return;
+                }
+            }
+        }
+    }
+    if size < 2 * seats + sensors {
+        let message = format!("{size} coordinates, and {of_each} need {}", 2 * seats + sensors);
+        wrong(
+            key("mass_matrix_kg"),
+            message,
+            format!("x and y of each seat, each sensor, and further ones: {} or more", 2 * seats + sensors),
+        );
+    } else if let (Some(mass), Some(stiffness)) = (&housing.mass_matrix_kg, &housing.stiffness_matrix_n_per_m)
+        && normal_modes(mass, stiffness).is_none()
+    {
+        wrong(key("mass_matrix_kg"), "not positive definite".into(), "the mass of every coordinate above 0".into());
+    }
 }
 
 /// What bearings and machine together get wrong.

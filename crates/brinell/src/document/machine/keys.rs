@@ -2,19 +2,21 @@
 
 use super::super::keys::Fallback::Required;
 use super::super::keys::{Keys, assumed, derived, stated};
+use super::super::modes_value::FASTEST_HZ;
 use super::super::spec::key;
 use crate::scenario::{
-    Accelerometer, Coupling, Disc, Machine, RigidHousing, Seat, SensorOn, Shaft, ShaftLoad, Unbalance, Unset,
+    Accelerometer, Coupling, Disc, Machine, MachineHousing, Seat, SensorOn, Shaft, ShaftLoad, Unbalance, Unset,
 };
 use crate::signal::rounded;
 use crate::steel::{DENSITY, POISSONS_RATIO, YOUNGS_MODULUS_GPA};
 use brinell_shaft::Part;
 use std::f64::consts::TAU;
 
-/// Fastest mode of a shaft that may be kept, Hz: a loaded element's own, of some 40 kHz, sets the step then.
-const FASTEST_HZ: f64 = 2e4;
 /// Where a housing is held, at least so far from its middle, mm.
 const LEAST_ARM_MM: f64 = 50.0;
+/// Where keys of a housing have a meaning.
+const RIGID: &str = "the housing has neither modes nor matrices";
+const BY_MATRICES: &str = "the housing has matrices";
 const DEFAULT_HZ: f64 = 300.0;
 const DEFAULT_RATIO: f64 = 0.05;
 
@@ -26,7 +28,7 @@ pub(in super::super) fn machine<K: Keys>(k: &mut K, m: &mut Machine) {
     k.tables(
         key("housing", "a rigid body on springs, in which outer rings sit"),
         &mut m.housings,
-        RigidHousing::unset,
+        MachineHousing::unset,
         |k, h| {
             number += 1;
             let within = seats.iter().filter(|seat| seat.housing.is_none_or(|of| of == number)).map(|seat| seat.at_mm);
@@ -174,44 +176,87 @@ fn seat<K: Keys>(k: &mut K, s: &mut Seat) {
 }
 
 /// `within`: where its bearings are, mm.
-fn housing<K: Keys>(k: &mut K, within: &[f64], h: &mut RigidHousing) {
+fn housing<K: Keys>(k: &mut K, within: &[f64], h: &mut MachineHousing) {
+    k.optional(
+        key("modes", "in place of a rigid body: frequency, damping and shapes at seats and sensors, of modal mass 1 kg and without outer rings; or a CSV file's name"),
+        &mut h.modes,
+    );
+    k.optional(
+        key(
+            "mass_matrix_kg",
+            "in place of these: M of x and y of each seat, of each sensor along its direction, and of anything else",
+        ),
+        &mut h.mass_matrix_kg,
+    );
+    k.optional(key("stiffness_matrix_n_per_m", "K of the same"), &mut h.stiffness_matrix_n_per_m);
+    let by_matrices = h.modes.is_none() && (h.mass_matrix_kg.is_some() || h.stiffness_matrix_n_per_m.is_some());
+    k.key_where(
+        key("damping_ratio", "of the modes of these matrices").plausible(0.005, 0.05).from(0.0).to(0.95),
+        (by_matrices, BY_MATRICES),
+        assumed(0.02, "cast iron on bolts"),
+        &mut h.damping_ratio,
+    );
+    let rigid = (h.is_rigid(), RIGID);
     let [low, high] = [f64::min, f64::max].map(|of| within.iter().copied().reduce(of).unwrap_or(f64::NAN));
-    k.key(
+    k.key_where(
         key("at_mm", "Z of its centre of mass"),
+        rigid,
         derived(0.5 * (low + high), "in the middle of its bearings"),
         &mut h.at_mm,
     );
-    k.key(key("mass_kg", "without the outer rings in it").above(0.0), Required, &mut h.mass_kg);
+    k.key_where(key("mass_kg", "without the outer rings in it").above(0.0), rigid, Required, &mut h.mass_kg);
     // What could not be read raises no objection.
     let arm = 1e-3 * LEAST_ARM_MM.max(0.5 * (high - low));
     let square = rounded(arm * arm, 6);
     let over = |value: f64| rounded(value, 6);
-    k.key(
+    k.key_where(
         key("inertia_kg_m2", "about X and Y through its centre of mass").plausible_times(0.3, 3.0).above(0.0),
+        rigid,
         derived(over(h.mass_kg * square), "its mass at the outermost of its bearings, 50 mm from the middle at least"),
         &mut h.inertia_kg_m2,
     );
-    k.key(
+    k.key_where(
         key("stiffness_n_per_m", "of what holds it").plausible_times(0.1, 10.0).from(0.0),
+        rigid,
         derived(over(h.mass_kg * (TAU * DEFAULT_HZ).powi(2)), "a first resonance at 300 Hz: measure it"),
         &mut h.stiffness_n_per_m,
     );
-    k.key(
+    k.key_where(
         key("damping_ns_per_m", "of the same").plausible_times(0.2, 3.0).from(0.0),
+        rigid,
         derived(over(2.0 * DEFAULT_RATIO * (h.stiffness_n_per_m * h.mass_kg).sqrt()), "5 % of critical damping"),
         &mut h.damping_ns_per_m,
     );
     const FEET: &str = "of springs and dampers under the outermost of its bearings, 50 mm from the middle at least";
-    k.key(
+    k.key_where(
         key("tilt_stiffness_nm_per_rad", "against tilt").plausible_times(0.3, 3.0).from(0.0),
+        rigid,
         derived(over(h.stiffness_n_per_m * square), FEET),
         &mut h.tilt_stiffness_nm_per_rad,
     );
-    k.key(
+    k.key_where(
         key("tilt_damping_nms_per_rad", "of the same").plausible_times(0.3, 3.0).from(0.0),
+        rigid,
         derived(over(h.damping_ns_per_m * square), FEET),
         &mut h.tilt_damping_nms_per_rad,
     );
+    // A key without a meaning holds nothing, so that a scenario equals the one that it reads back to.
+    if !rigid.0 {
+        for value in [
+            &mut h.at_mm,
+            &mut h.mass_kg,
+            &mut h.inertia_kg_m2,
+            &mut h.stiffness_n_per_m,
+            &mut h.damping_ns_per_m,
+            &mut h.tilt_stiffness_nm_per_rad,
+            &mut h.tilt_damping_nms_per_rad,
+        ] {
+            *value = 0.0;
+        }
+    }
+    if !by_matrices {
+        h.damping_ratio = 0.0;
+    }
 }
 
 fn sensor<K: Keys>(k: &mut K, (number, shaft): (usize, &Shaft), s: &mut Accelerometer) {
