@@ -20,6 +20,7 @@ mod exit_codes;
 mod init;
 mod inputs;
 mod look_up;
+mod machine;
 mod many;
 mod names;
 mod outputs;

@@ -48,7 +48,7 @@ fn make(folder: &Path, more: &[&str]) -> Call {
     brinell(folder, &[&["dataset", "plan.toml"], more].concat())
 }
 
-fn rows(path: &Path) -> Vec<Row> {
+pub(crate) fn rows(path: &Path) -> Vec<Row> {
     let reader = SerializedFileReader::new(fs::File::open(path).unwrap()).unwrap();
     reader.get_row_iter(None).unwrap().map(Result::unwrap).collect()
 }
@@ -57,7 +57,15 @@ fn cell<'a>(row: &'a Row, name: &str) -> &'a Field {
     row.get_column_iter().find(|(n, _)| *n == name).unwrap_or_else(|| panic!("{name}")).1
 }
 
-fn text(row: &Row, name: &str) -> Option<String> {
+pub(crate) fn whole(row: &Row, name: &str) -> i64 {
+    match cell(row, name) {
+        Field::Int(x) => i64::from(*x),
+        Field::Long(x) => *x,
+        other => panic!("{name}: {other}"),
+    }
+}
+
+pub(crate) fn text(row: &Row, name: &str) -> Option<String> {
     match cell(row, name) {
         Field::Str(text) => Some(text.clone()),
         Field::Null => None,
