@@ -40,6 +40,11 @@ pub fn reduce(beam: &Beam, band: f64, ports: &[Port], damping: f64, is_rigid: bo
         let (frequencies, modes) = modes(&full.mass, &full.stiffness)?;
         let kept = frequencies.iter().filter(|w| **w <= TAU * band).count().max(LEAST).min(frequencies.len());
         let mut basis = modes.columns(0, kept).into_owned();
+        // On springs the motions of the rigid shaft are no modes, and belong to it all the same: its momentum and weight.
+        if frequencies[0] > 0.0 {
+            let rigid = DMatrix::from_columns(&beam.rigid());
+            basis = DMatrix::from_columns(&rigid.column_iter().chain(basis.column_iter()).collect::<Vec<_>>());
+        }
         for port in ports {
             let mut residual = DVector::zeros(full.size());
             for k in kept..frequencies.len() {

@@ -317,8 +317,15 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
 #[doc(hidden)]
 pub fn unit_of_run(name: &str, sensor: &Sensor) -> Option<&'static str> {
     let of_sensor = sensor_channels(sensor).into_iter().find(|c| c.name == name).map(|c| c.unit);
-    let accelerates = name.starts_with("housing") || name.starts_with("shaft.") && !is_displacement(name);
-    of_sensor.or_else(|| (accelerates || name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2"))
+    of_sensor
+        .or_else(|| unit_of_machine(name))
+        .or_else(|| (name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2"))
+}
+
+/// The unit of a machine's sensor, by its channel's name.
+pub(crate) fn unit_of_machine(name: &str) -> Option<&'static str> {
+    let of_housing = name.strip_prefix("housing").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    (of_housing || name.starts_with("shaft.") && !is_displacement(name)).then_some("m/s^2")
 }
 
 /// Whether it is the displacement of a shaft's station, `shaft.x1`.

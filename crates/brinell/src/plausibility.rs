@@ -25,7 +25,7 @@ use crate::scenario::{Choice, GeometryLaw, LoadOn, Scenario, Speed};
 use crate::simulate::Simulation;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::{after, converted, doubtful, of_energy, strayed, unsettled};
-pub use machine::carried;
+pub use machine::{carried, observed};
 use std::f64::consts::TAU;
 use warning::{WEIGHT_SHARE, short, warning};
 

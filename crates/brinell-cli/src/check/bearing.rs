@@ -185,15 +185,15 @@ pub(super) fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone,
         significant(1e6 * zone.shift[0], 1e6 * size, 4),
         significant(1e6 * zone.shift[1], 1e6 * size, 4)
     );
+    if !on_supports {
+        return;
+    }
     say!(
         "  bearing stiffness       xx {}, yy {}, xy {} N/m",
         short(zone.stiffness[0][0], 4),
         short(zone.stiffness[1][1], 4),
         significant(zone.stiffness[0][1], zone.stiffness[0][0], 2)
     );
-    if !on_supports {
-        return;
-    }
     say!(
         "  loaded ring's support   takes {} N of the {} N of load{}; the heaviest contact and the life are those of the rest",
         short(zone.support, 3),

@@ -7,6 +7,7 @@ use crate::failure::{Failure, print_problems};
 use crate::say::{self, one_line, plain_number, say, short, significant};
 use crate::sweep::duration;
 use brinell::analysis::STANDARD_GRAVITY;
+use brinell::bearing::catalogue;
 use brinell::derived::{DerivedBearing, DerivedMachine, machine_to_json};
 use brinell::document::Loaded;
 use brinell::machine::{Mode, Whirl};
@@ -70,11 +71,38 @@ pub(super) fn check(
     Ok(ExitCode::SUCCESS)
 }
 
+/// Basic rating life of ISO 281 where the catalogue states the dynamic load rating: in million turns, and h.
+fn life(one: &DerivedBearing) -> Option<String> {
+    let b = &one.scenario.bearing;
+    let [x, y] = one.carried.force;
+    let entry = catalogue::find(b.preset.as_deref()?)?;
+    let rating = entry.fact(catalogue::DYNAMIC_RATING)?;
+    let exponent = if b.has_balls() { 3.0 } else { 10.0 / 3.0 };
+    let turns = 1e6 * (rating / x.hypot(y)).powf(exponent);
+    let hours = turns * TAU / one.derived.top_speed / 3600.0;
+    Some(format!(
+        "L10 {} million turns, {} h at the top speed (ISO 281, C = {} kN)",
+        short(1e-6 * turns, 3),
+        short(hours, 3),
+        short(1e-3 * rating, 3)
+    ))
+}
+
 /// What the bearing has of the load, and how it stands.
 fn share(one: &DerivedBearing) {
     let [x, y] = one.carried.force;
     let size = x.hypot(y);
     say!("  carries                 ({}, {}) N", significant(x, size, 4), significant(y, size, 4));
+    if let Some(life) = life(one) {
+        say!("  basic rating life       {life}");
+    }
+    let k = one.coefficients(one.derived.top_speed).stiffness;
+    say!(
+        "  stiffness, undamaged    xx {}, yy {}, xy {} N/m",
+        short(k[0][0], 3),
+        short(k[1][1], 3),
+        significant(k[0][1], k[0][0], 2)
+    );
     let [a, b] = one.carried.misalignment.map(|slope| 1e3 * slope);
     say!("  misaligned by           ({}, {}) mrad", significant(a, a.hypot(b), 3), significant(b, a.hypot(b), 3));
 }

@@ -27,6 +27,10 @@ const PICTURES: usize = 4;
 pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     let axis = ["x", "y"][scenario.operation.axis_of_load()];
     let mut usual = Vec::new();
+    if let Some(machine) = &scenario.machine {
+        let shown = machine.sensors.iter().map(|sensor| machine.channel_of(sensor));
+        usual.extend(shown.flat_map(|of| [format!("{of}.rms"), format!("{of}.kurtosis")]));
+    }
     for channel in ["sensor", "inner", "outer", "cage1"] {
         for indicator in ["rms", "peak_to_peak"] {
             usual.push(format!("{channel}_a{axis}.{indicator}"));

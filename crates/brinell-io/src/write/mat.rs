@@ -24,11 +24,13 @@ const LONGEST_NAME: usize = 63;
 pub(crate) struct MatWriter(Variables);
 
 impl MatWriter {
-    /// Starts the file. Names must be MATLAB's: a letter, then letters, digits and `_`, 63 at most.
+    /// Starts the file. Names must be MATLAB's: a letter, then letters, digits and `_`, 63 at most; dots become `_`.
     pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
         let limit = Limit { rows: MAX_ROWS, format: "MATLAB v5", of: "a variable" };
         let why_not = |name: &str| {
-            (!is_matlab_name(name)).then_some("MATLAB takes a letter, then letters, digits and `_`, 63 at most")
+            // Of a machine's channels, `bearing1.outer_ax`, the dot is written as `_`.
+            (!is_matlab_name(&name.replace('.', "_")))
+                .then_some("MATLAB takes a letter, then letters, digits and `_`, 63 at most")
         };
         Ok(Self(Variables::at(destination, columns, metadata, Some(limit), why_not)?))
     }
@@ -45,7 +47,7 @@ impl MatWriter {
         let rows = spool.rows();
         for (index, column) in columns.iter().enumerate() {
             // Eight bytes each: no padding.
-            file.append(&head(&column.name, CLASS_DOUBLE, [rows, 1], MI_DOUBLE, 8 * rows))?;
+            file.append(&head(&column.name.replace('.', "_"), CLASS_DOUBLE, [rows, 1], MI_DOUBLE, 8 * rows))?;
             spool.column(index, |bytes| file.append(bytes))?;
         }
         if let Some(hz) = metadata.sample_rate() {

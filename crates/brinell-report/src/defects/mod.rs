@@ -11,6 +11,7 @@ mod seen;
 pub(crate) use along::along_roller;
 use brinell::derived::defect_passes;
 use brinell::model::{Model, ModelError};
+use brinell::plausibility::observed;
 use brinell::scenario::Scenario;
 use brinell::statics::static_load_zone;
 pub use measures::Measures;
@@ -26,6 +27,8 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
     if s.defects.is_empty() {
         return Ok(Vec::new());
     }
+    // In a machine under the load that it carries there.
+    let s = &observed(s);
     let model = Model::new(s)?;
     let healthy = Model::new(&Scenario { defects: Vec::new(), ..s.clone() })?;
     let passes = defect_passes(&model);

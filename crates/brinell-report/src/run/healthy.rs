@@ -48,6 +48,7 @@ pub(super) fn times(parts: &Parts) -> Option<(String, String)> {
     let interval = ratio
         .interval
         .map_or(String::new(), |(low, high)| format!("95 %, scatter only: {} to {}", short(low, 2), short(high, 2)));
-    let words = format!("{} times the healthy bearing’s", short(ratio.value, 2));
+    let what = if parts.loaded.scenario.machine.is_some() { "machine" } else { "bearing" };
+    let words = format!("{} times the healthy {what}’s", short(ratio.value, 2));
     Some((words, interval))
 }

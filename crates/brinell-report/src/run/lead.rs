@@ -27,12 +27,18 @@ pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {
     }
     match said.len() {
         0 => String::new(),
-        _ => format!("{}: {}.", what(model, damage), said.join("; ")),
+        _ => {
+            let in_machine = parts.loaded.scenario.machine.as_ref().map(|machine| machine.lead + 1);
+            format!("{}: {}.", what(model, damage, in_machine), said.join("; "))
+        }
     }
 }
 
-fn what(model: &Model, damage: &[Damage]) -> String {
+/// `number`: of a machine's bearing.
+fn what(model: &Model, damage: &[Damage], number: Option<usize>) -> String {
+    let of = number.map_or(String::new(), |number| format!(" of bearing {number}"));
     match (&model.defects[..], damage) {
+        ([], _) if number.is_some() => "Healthy machine".into(),
         ([], _) => "Healthy bearing".into(),
         ([defect], [one]) => {
             let place = match defect.surface {
@@ -41,8 +47,8 @@ fn what(model: &Model, damage: &[Damage]) -> String {
                 Surface::Roller(k) => format!("{} {}", defect.element.word(), k + 1),
             };
             let [length, width] = [one.measures.length_mm, one.measures.width_mm].map(|mm| short(mm, 2));
-            format!("{length} × {width} mm defect, {place}")
+            format!("{length} × {width} mm defect, {place}{of}")
         }
-        (all, _) => format!("{} defects", all.len()),
+        (all, _) => format!("{} defects{of}", all.len()),
     }
 }

@@ -15,6 +15,7 @@ use crate::data::Signals;
 use crate::frame::THINNED;
 use crate::number::short;
 use crate::page::Page;
+use brinell::plausibility::observed;
 use brinell::result::Parts;
 use brinell::scenario::{Bearing, ModelKind, Scenario, Speed};
 use brinell::simulate::End;
@@ -48,7 +49,7 @@ impl Page {
         all.extend([
             chapters::damage(views),
             chapters::passes(passes.iter().map(|p| pass(parts, p)).collect()),
-            chapters::load(load_distribution(parts), crate::defects::along_roller(scenario)),
+            chapters::load(load_distribution(parts), crate::defects::along_roller(&observed(scenario))),
             chapters::motion(motion(parts)),
             chapters::orbit(cage_orbits(parts)),
             chapters::indicators(&indicators(parts)),

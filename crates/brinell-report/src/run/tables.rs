@@ -63,7 +63,11 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
         format!("; damaged {words}{interval}")
     });
     Some(Fact::new(
-        "RMS of the healthy bearing",
+        if parts.loaded.scenario.machine.is_some() {
+            "RMS of the healthy machine"
+        } else {
+            "RMS of the healthy bearing"
+        },
         short(rms.value, 3),
         "m/s^2",
         format!("the same scenario without its damage{times}"),

@@ -58,6 +58,8 @@ pub fn machine_to_json(scenario: &Scenario, of: &DerivedMachine) -> Value {
     let whirl = |whirl: Whirl| if whirl == Whirl::Forward { "forward" } else { "backward" };
     let bearing = |one: &DerivedBearing| {
         let mut json = to_json(&one.scenario, &one.model, &one.derived);
+        // Of a machine's channels and loads its own warnings tell.
+        json.as_object_mut().and_then(|of| of.remove("warnings"));
         json["force_n"] = json!(one.carried.force);
         json["moment_nm"] = json!(one.carried.moment);
         json["misalignment_mrad"] = json!(one.carried.misalignment.map(|slope| 1e3 * slope));

@@ -65,7 +65,8 @@ impl Machine {
         let rings: Vec<Vec<Place>> = self.bearings.iter().map(|seated| self.rings(seated, &mut size)).collect();
         let problems: Vec<Problem> = self.bearings.iter().map(|seated| Problem::at_start(&seated.model)).collect();
         let (springs, forces) = self.held(&rings, size);
-        let scale = forces.iter().fold(1e-9_f64, |scale, f| scale.max(f.abs()));
+        // Less than a thousandth of a newton is no load: preload alone holds.
+        let scale = forces.iter().fold(1e-3_f64, |scale, f| scale.max(f.abs()));
         let press = |k: usize, z: &[f64]| {
             let at: Vec<f64> = rings[k].iter().map(|ring| ring.of(z)).collect();
             pressed(&self.bearings[k].model, &problems[k], scale, &at)

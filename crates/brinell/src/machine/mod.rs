@@ -19,6 +19,6 @@ pub use assembly::{Machine, Mount, Point, Seated};
 pub use balance::{Balance, Carried};
 pub use brinell_shaft::{Disc, Equations, Linear, Material, Mode, Part, Port, Spring, Whirl};
 pub use motion::{Evaluated, MachineMotion, Parts};
-pub(crate) use of_scenario::machine;
+pub(crate) use of_scenario::{bearings, machine, unloaded};
 pub use plan::{Housing, HousingMode, OnShaft, Plan, PlanError, Shaft};
 pub use structure::{Row, Seat, Structure};

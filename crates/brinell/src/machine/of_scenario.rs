@@ -2,10 +2,11 @@
 
 use super::plan::{Housing, HousingMode, OnShaft, Plan, PlanError, Shaft};
 use super::{Machine, Material, Part, Spring};
+use crate::analysis::STANDARD_GRAVITY;
 use crate::document::Problem;
 use crate::error::Error;
 use crate::model::{Model, Support};
-use crate::scenario::{self, HousingModes, SensorOn};
+use crate::scenario::{self, HousingModes, Scenario, SensorOn};
 use brinell_shaft::normal_modes;
 use std::f64::consts::TAU;
 
@@ -24,11 +25,59 @@ pub(crate) fn machine(of: &scenario::Machine, models: Vec<Model>) -> Result<Mach
 /// Fastest mode of a housing's matrices that is kept, Hz.
 const FASTEST_HZ: f64 = 2e4;
 
+/// The bearings of a scenario's machine as they are to be made models of: each alone, with the load on its inner ring that it carries in balance,
+/// unbalance at the top speed on top, for which tables of damage are made; and with waves of its own. The load is not to act again:
+/// [`unloaded`].
+pub(crate) fn bearings(scenario: &Scenario, of: &scenario::Machine) -> Result<Vec<Scenario>, Error> {
+    let mut alone = scenario.bearings();
+    for (k, bearing) in alone.iter_mut().enumerate() {
+        bearing.simulation.seed = bearing.simulation.seed.wrapping_add(WAVES_APART.wrapping_mul(k as u64));
+    }
+    if alone.iter().all(|bearing| bearing.defects.is_empty()) {
+        return Ok(alone);
+    }
+    let planned = alone.iter().map(Model::planned).collect::<Result<Vec<_>, _>>()?;
+    let top_speed = planned[0].rotation.max_speed();
+    let whirling: f64 = of.shaft.unbalance.iter().map(|u| 1e-6 * u.size_g_mm * top_speed * top_speed).sum();
+    let made = machine(of, planned)?;
+    let gravity = scenario.operation.gravity_m_per_s2;
+    let carried: Vec<[f64; 2]> = match made.balance() {
+        Ok(balance) => balance.bearings.iter().map(|carried| carried.force).collect(),
+        // All of it, to be sure: a run says what it finds.
+        Err(_) => {
+            let weight = made.shaft_weight() / STANDARD_GRAVITY;
+            let sum =
+                |axis: usize| of.shaft.load.iter().map(|load| load.force_n[axis]).sum::<f64>() + weight * gravity[axis];
+            vec![[sum(0), sum(1)]; alone.len()]
+        }
+    };
+    for (bearing, [x, y]) in alone.iter_mut().zip(carried) {
+        let size = x.hypot(y);
+        bearing.operation.load_n =
+            if size > 0.0 { [x, y].map(|f| f * (1.0 + whirling / size)) } else { [0.0, -whirling] };
+    }
+    Ok(alone)
+}
+
+/// A model without the load that it was made for.
+pub(crate) fn unloaded(mut model: Model) -> Model {
+    model.load.full = [0.0; 2];
+    model
+}
+
+/// What the seeds of waves differ by from bearing to bearing.
+const WAVES_APART: u64 = 0x9E37_79B9_7F4A_7C15;
+
 /// What `machine` makes it of.
 pub(crate) fn plan(of: &scenario::Machine, models: Vec<Model>) -> Plan {
     let s = &of.shaft;
     let first = s.stations_mm.first().copied().unwrap_or(0.0);
-    let at = |mm: f64| 1e-3 * (mm - first);
+    // Sums of parts have a last digit of their own.
+    let length: f64 = s.stations_mm.windows(2).map(|ends| 1e-3 * (ends[1] - ends[0])).sum();
+    let at = |mm: f64| {
+        let z = 1e-3 * (mm - first);
+        if (z - length).abs() < 1e-9 { length } else { z }
+    };
     let bore = |k: usize| s.bores_mm.as_ref().and_then(|bores| bores.get(k)).map_or(0.0, |mm| 1e-3 * mm);
     let parts = s.stations_mm.windows(2).zip(&s.diameters_mm).enumerate();
     let parts = parts.map(|(k, (ends, diameter))| Part {

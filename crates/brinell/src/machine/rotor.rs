@@ -62,6 +62,13 @@ impl Machine {
                 equations.stiffness += support.stiffness * &place;
                 equations.damping += support.damping * &place;
             }
+            if let Some(mount) = &seated.mounts[0] {
+                let (mut seat, support) = (Port::zeros(size), seated.model.inner_support);
+                add(&mut seat, mount, 1.0);
+                let place = &seat.0 * seat.0.transpose();
+                equations.stiffness += support.stiffness * &place;
+                equations.damping += support.damping * &place;
+            }
             ports.push(port);
         }
         (equations, ports)

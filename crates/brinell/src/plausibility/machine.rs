@@ -17,9 +17,27 @@ pub fn carried(scenario: &Scenario, machine: &Machine, balance: &Balance) -> Vec
         // Held to be looked at alone, as it would be without a housing.
         model.outer_support.stiffness = alone.support.outer_stiffness_n_per_m;
         (model.load.full, model.load.on, model.gravity) = (of.force, LoadOn::InnerRing, [0.0; 2]);
+        // The moment as a lever of the load, as far as it lies in its plane.
+        let square: f64 = of.force.iter().map(|f| f * f).sum();
+        if let Some(tilt) = model.tilt.as_mut().filter(|_| square > 0.0) {
+            let along: f64 = of.moment.iter().zip(&of.force).map(|(m, f)| m * f).sum();
+            tilt.load_offset = along / square;
+            alone.operation.load_offset_mm = 1e3 * tilt.load_offset;
+        }
         (alone, model)
     };
     balance.bearings.iter().enumerate().map(one).collect()
+}
+
+/// The bearing that is observed, on its own: of a machine under what it carries in balance.
+pub fn observed(scenario: &Scenario) -> Scenario {
+    let Some(of) = &scenario.machine else { return scenario.clone() };
+    let under_load = || {
+        let planned = Simulation::planned(scenario).ok()?;
+        let balance = planned.machine().balance().ok()?;
+        Some(carried(scenario, planned.machine(), &balance).swap_remove(of.lead).0)
+    };
+    under_load().unwrap_or_else(|| scenario.bearing_of_machine(of.lead))
 }
 
 /// Of a bearing's warnings those that a machine does not answer, with the bearing's number.

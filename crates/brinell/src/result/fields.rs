@@ -172,7 +172,7 @@ pub fn forms() -> impl Iterator<Item = Form> {
     fn of<F>(subject: &'static str, list: &'static [Field<F>]) -> impl Iterator<Item = Form> {
         list.iter().map(move |field| (format!("^{subject}{}$", field.name), Some(field.unit), field.meaning))
     }
-    let channel = r"[a-z]\w*(\.anti_aliased)?\.";
+    let channel = r"[a-z]\w*(\.\w+)?(\.anti_aliased)?\.";
     let own = |name: &str, meaning| (format!("^{channel}{name}$"), None, meaning);
     let indicators = Indicator::ALL.map(|i| own(i.name(), i.meaning()));
     let records = record("").map(|field| own(field.name, field.meaning));

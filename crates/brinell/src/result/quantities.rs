@@ -11,6 +11,7 @@ use super::fields::{
     WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
+use crate::channel::unit_of_machine;
 use crate::did_you_mean::did_you_mean;
 use crate::observe::{Findings, Kind};
 use crate::scenario::Scenario;
@@ -156,7 +157,7 @@ fn analysed(field: &Field<fn(&Findings) -> f64>, findings: &Findings) -> Quantit
 
 fn of_kind(channel: &str, kind: Kind) -> String {
     let filtered = match kind {
-        Kind::AntiAliased if !channel.starts_with("sensor_") => ".anti_aliased",
+        Kind::AntiAliased if !is_of_sensor(channel) => ".anti_aliased",
         _ => "",
     };
     format!("{channel}{filtered}")
@@ -307,4 +308,9 @@ mod tests {
         let found = [(250.1, peak(245.9)), (319.9, None), (241.3, peak(245.9)), (482.6, peak(480.0))];
         assert_eq!(own_levels(&found), [Some(2.0), None, None, Some(2.0)]);
     }
+}
+
+/// Whether a channel is a sensor's, which says by its name that it passed the filter: `sensor_ax`, and a machine's `housing1.drive_end`.
+fn is_of_sensor(channel: &str) -> bool {
+    channel.starts_with("sensor_") || unit_of_machine(channel).is_some()
 }

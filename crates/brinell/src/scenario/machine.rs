@@ -1,8 +1,8 @@
 //! What is around a bearing in a machine: the shaft, the other bearings, housings, sensors.
 
-use super::Scenario;
 use super::choices::{Choice, choices};
 use super::unset::sections;
+use super::{ModelKind, Scenario, Simulation};
 
 choices! {
     /// What an accelerometer of a machine sits on.
@@ -336,6 +336,14 @@ impl Scenario {
         seen
     }
 
+    /// Of a machine what all bearings have, as the file has it: where any tilts, that they tilt.
+    pub(crate) fn of_all(&self) -> Simulation {
+        let others = self.machine.iter().flat_map(|machine| &machine.others);
+        let tilts = others.chain([self]).any(|bearing| bearing.simulation.model == ModelKind::Tilting);
+        let model = if tilts { ModelKind::Tilting } else { self.simulation.model };
+        Simulation { model, ..self.simulation.clone() }
+    }
+
     /// Bearing `k` of its machine, from 0, as a scenario without the machine; without one the scenario itself.
     pub fn bearing_of_machine(&self, k: usize) -> Self {
         let Some(machine) = &self.machine else { return self.clone() };
@@ -346,7 +354,9 @@ impl Scenario {
         };
         alone.name.clone_from(&self.name);
         alone.operation = self.operation.clone();
-        alone.simulation = self.simulation.clone();
+        // Balls stay in the plane where rollers tilt.
+        let model = alone.simulation.model;
+        alone.simulation = Simulation { model, ..self.simulation.clone() };
         alone
     }
 }

@@ -249,9 +249,9 @@ pub struct Simulation {
 }
 
 /// What `make` makes of each bearing of a scenario.
-fn each<T>(scenario: &Scenario, make: impl Fn(&Scenario) -> Result<T, ModelError>) -> Result<Vec<T>, ModelError> {
-    match scenario.machine {
-        Some(_) => scenario.bearings().iter().map(make).collect(),
+fn each<T>(scenario: &Scenario, make: impl Fn(&Scenario) -> Result<T, ModelError>) -> Result<Vec<T>, Error> {
+    match &scenario.machine {
+        Some(of) => Ok(machine::bearings(scenario, of)?.iter().map(make).collect::<Result<_, _>>()?),
         None => Ok(vec![make(scenario)?]),
     }
 }
@@ -343,6 +343,7 @@ impl Simulation {
     /// Of the models of its bearings.
     fn of(scenario: &Scenario, mut models: Vec<Model>) -> Result<Self, Error> {
         if let Some(of) = &scenario.machine {
+            let models = models.into_iter().map(machine::unloaded).collect();
             let made = Self::of_machine(machine::machine(of, models)?, &Recording::of(scenario))?;
             let shown = scenario.shown_channel();
             let place = made.filtered.iter().position(|channel| channel.name == shown);

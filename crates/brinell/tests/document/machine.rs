@@ -197,3 +197,55 @@ fn regress_modes_are_read_from_a_file_by_the_names_of_its_columns() {
         assert!(error.contains(words), "{error}");
     }
 }
+
+/// A rigid shaft on two damaged bearings is one of them under half the load, damage tables and all.
+#[test]
+fn analytic_damage_in_a_machine_is_that_of_one_bearing_under_its_share() {
+    const DAMAGE: &str = "on = \"outer-raceway\"\ncenter_deg = -90\ndepth_um = 15\nshape = { rectangle = { length_mm = 1, width_mm = 3 } }\n";
+    const SUPPORT: &str = "outer_stiffness_n_per_m = 5e7\nouter_damping_ns_per_m = 500\n";
+    let (shaft_kg, load) = (std::f64::consts::PI / 4.0 * 0.03_f64.powi(2) * 0.2 * 7850.0, 6000.0);
+    let run = "[simulation]\nduration_s = 0.012\nstart = \"equilibrium\"\n";
+    let bearing = |at: f64| {
+        format!(
+            "[[bearing]]\npreset = \"6206\"\nat_mm = {at}\n[bearing.support]\n{SUPPORT}[[bearing.defects]]\n{DAMAGE}"
+        )
+    };
+    let two = format!(
+        "[shaft]\nstations_mm = [0, 200]\ndiameters_mm = [30]\ndensity_kg_per_m3 = 7850\nrigid = true\n[[shaft.load]]\nat_mm = 100\nforce_n = [0, -{load}]\n{}{}[operation]\nspeed_rpm = 1500\n{run}record = [\"bearing*.outer_ay\"]\n",
+        bearing(40.0),
+        bearing(160.0)
+    );
+    let own = good("[bearing]\npreset = \"6206\"\n[operation]\nspeed_rpm = 1500\nload_n = [0, -1]\n")
+        .scenario
+        .bearing
+        .inner_ring_mass_kg;
+    let one = format!(
+        "[bearing]\npreset = \"6206\"\ninner_ring_mass_kg = {}\n[support]\ninner_stiffness_n_per_m = 0\ninner_damping_ns_per_m = 0\n{SUPPORT}[housing]\nmass_kg = 0\n[[defects]]\n{DAMAGE}[operation]\nspeed_rpm = 1500\nload_n = [0, -{}]\nload_on = \"inner-ring\"\n{run}record = [\"outer_ay\"]\n",
+        own + 0.5 * shaft_kg,
+        0.5 * load
+    );
+    let signal = |text: &str, name: &str| {
+        let (_, signals) = brinell::result::record(&good(text).scenario).unwrap();
+        signals.get(name).unwrap().to_vec()
+    };
+    let alone = signal(&one, "outer_ay");
+    let rms = (alone.iter().map(|a| a * a).sum::<f64>() / alone.len() as f64).sqrt();
+    assert!(rms > 10.0, "{rms}");
+    for name in ["bearing1.outer_ay", "bearing2.outer_ay"] {
+        let off = signal(&two, name).iter().zip(&alone).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / alone.len() as f64;
+        // One pass; later impacts amplify what steps of two lengths leave.
+        assert!(off.sqrt() < 1e-4 * rms, "{name}: {} of {rms}", off.sqrt());
+    }
+}
+
+/// Balls beside rollers that tilt stay in the plane, and the file reads back.
+#[test]
+fn prop_a_ball_bearing_stands_beside_rollers_that_tilt() {
+    let loaded = with(&[("bearing.1.preset", "NU205"), ("simulation.model", "tilting")]);
+    let loaded = loaded.unwrap_or_else(|problems| panic!("{}", report(&problems)));
+    let models: Vec<_> = loaded.scenario.bearings().iter().map(|of| of.simulation.model).collect();
+    assert_eq!(models, [brinell::scenario::ModelKind::Full, brinell::scenario::ModelKind::Tilting]);
+    assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
+    assert_eq!(loaded.scenario.problems(), []);
+    assert!(brinell::simulate::Simulation::new(&loaded.scenario).is_ok());
+}

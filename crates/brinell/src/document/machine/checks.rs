@@ -9,6 +9,10 @@ use super::tables::{OF_THE_SHAFT, at, given};
 use crate::scenario::{HousingMode, HousingModes, Machine, MachineHousing, ModelKind, Scenario, SensorOn};
 use brinell_shaft::normal_modes;
 
+/// Stations of a shaft, and bearings on it, at most: its modes are found of as many nodes and more, and each bearing is a model of its own.
+const MOST_STATIONS: usize = 200;
+const MOST_BEARINGS: usize = 20;
+
 /// Adds what is wrong to the problems of the reader.
 pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Problems<'a>) -> Problems<'a> {
     let mut add = |severity: Severity, key: String, message: String, allowed: String| {
@@ -17,11 +21,20 @@ pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Probl
     };
     let mut wrong = |key: String, message: String, allowed: String| add(Severity::Error, key, message, allowed);
     let stations = &m.shaft.stations_mm;
-    if stations.is_empty() {
-        // That is reported.
+    let key = |name: &str| format!("shaft.{name}");
+    if stations.len() > MOST_STATIONS {
+        let message = format!("{} stations", stations.len());
+        wrong(key("stations_mm"), message, format!("at most {MOST_STATIONS} of them"));
         return problems;
     }
-    let key = |name: &str| format!("shaft.{name}");
+    if m.seats.len() > MOST_BEARINGS {
+        wrong("bearing".into(), format!("{} bearings", m.seats.len()), format!("at most {MOST_BEARINGS} of them"));
+        return problems;
+    }
+    // One that could not be read is reported.
+    if stations.iter().any(|z| z.is_nan()) {
+        return problems;
+    }
     if stations.len() < 2 || stations.windows(2).any(|pair| pair[1] <= pair[0]) {
         wrong(
             key("stations_mm"),
@@ -99,10 +112,23 @@ pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Probl
             _ => {}
         }
     }
-    for (k, seat) in m.seats.iter().enumerate() {
-        if seat.fit_stiffness_n_per_m.is_some() && count == 0 {
-            let message = "a fit is that of an outer ring in a housing, and there is none";
-            wrong(format!("bearing.{k}.fit_stiffness_n_per_m"), message.into(), "a [[housing]]".into());
+    for (k, seat) in m.seats.iter().enumerate().filter(|_| count == 0) {
+        let moved = |of: [f64; 2]| of.iter().any(|x| *x != 0.0);
+        let given = [
+            ("fit_stiffness_n_per_m", seat.fit_stiffness_n_per_m.is_some()),
+            ("offset_um", moved(seat.offset_um)),
+            ("misalignment_mrad", moved(seat.misalignment_mrad)),
+        ];
+        for (name, _) in given.into_iter().filter(|(_, given)| *given) {
+            let message = "is of a seat in a housing, and there is none";
+            wrong(format!("bearing.{k}.{name}"), message.into(), "a [[housing]]".into());
+        }
+    }
+    for (k, disc) in shaft.disc.iter().enumerate() {
+        if disc.polar_inertia_kg_m2 > 2.0 * disc.diametral_inertia_kg_m2 * (1.0 + 1e-6) {
+            let message = "no body has more than twice its moment of inertia about a diameter";
+            let most = 2.0 * disc.diametral_inertia_kg_m2;
+            wrong(format!("shaft.disc.{k}.polar_inertia_kg_m2"), message.into(), format!("up to {}", float(most)));
         }
     }
     for (k, housing) in m.housings.iter().enumerate() {

@@ -56,15 +56,19 @@ fn shaft<K: Keys>(k: &mut K, s: &mut Shaft) {
     k.key(key("diameters_mm", "from each station to the next").above(0.0), Required, &mut s.diameters_mm);
     k.optional(key("bores_mm", "likewise; left out: solid").from(0.0), &mut s.bores_mm);
     const STEEL: &str = "of steel";
-    k.key(key("youngs_modulus_gpa", "E").above(0.0), assumed(YOUNGS_MODULUS_GPA, STEEL), &mut s.youngs_modulus_gpa);
+    k.key(
+        key("youngs_modulus_gpa", "E").above(0.1).to(2000.0),
+        assumed(YOUNGS_MODULUS_GPA, STEEL),
+        &mut s.youngs_modulus_gpa,
+    );
     let shear = rounded(0.5 * s.youngs_modulus_gpa / (1.0 + POISSONS_RATIO), 6);
     k.key(
-        key("shear_modulus_gpa", "G").above(0.0),
+        key("shear_modulus_gpa", "G").above(0.01).to(2000.0),
         derived(shear, "E / 2.6, Poisson's ratio 0.3"),
         &mut s.shear_modulus_gpa,
     );
     let density = rounded(1e9 * DENSITY, 6);
-    k.key(key("density_kg_per_m3", "rho").above(0.0), assumed(density, STEEL), &mut s.density_kg_per_m3);
+    k.key(key("density_kg_per_m3", "rho").from(100.0).to(30_000.0), assumed(density, STEEL), &mut s.density_kg_per_m3);
     k.key(key("rigid", "whether it does not bend"), stated(false, "shafts bend"), &mut s.rigid);
     k.key(
         key("band_hz", "its free modes up to here are kept, and six a plane at least, beside what residual vectors of the seats add")
@@ -216,7 +220,7 @@ fn housing<K: Keys>(k: &mut K, within: &[f64], h: &mut MachineHousing) {
         &mut h.inertia_kg_m2,
     );
     k.key_where(
-        key("stiffness_n_per_m", "of what holds it").plausible_times(0.1, 10.0).from(0.0),
+        key("stiffness_n_per_m", "of what holds it").plausible_times(0.1, 10.0).above(0.0),
         rigid,
         derived(over(h.mass_kg * (TAU * DEFAULT_HZ).powi(2)), "a first resonance at 300 Hz: measure it"),
         &mut h.stiffness_n_per_m,
@@ -229,7 +233,7 @@ fn housing<K: Keys>(k: &mut K, within: &[f64], h: &mut MachineHousing) {
     );
     const FEET: &str = "of springs and dampers under the outermost of its bearings, 50 mm from the middle at least";
     k.key_where(
-        key("tilt_stiffness_nm_per_rad", "against tilt").plausible_times(0.3, 3.0).from(0.0),
+        key("tilt_stiffness_nm_per_rad", "against tilt").plausible_times(0.3, 3.0).above(0.0),
         rigid,
         derived(over(h.stiffness_n_per_m * square), FEET),
         &mut h.tilt_stiffness_nm_per_rad,

@@ -45,9 +45,16 @@ pub(super) fn read(text: &str, root: &Table) -> Result<Loaded, Vec<Problem>> {
         let seated = machine.seats.get(k).is_some_and(|seat| machine.housing_of(seat.housing).is_some());
         // What the machine decides is no matter of the bearing's file.
         let concerns = |key: &str| {
-            let given = !["operation.load_n", "operation.load_on", "simulation.record", "housing.", "sensor."]
-                .iter()
-                .any(|own| key.starts_with(own));
+            let given = ![
+                "operation.load_n",
+                "operation.load_on",
+                "simulation.record",
+                "simulation.start",
+                "housing.",
+                "sensor.",
+            ]
+            .iter()
+            .any(|own| key.starts_with(own));
             given && !(key.starts_with("support.inner") || seated && key.starts_with("support.outer"))
         };
         let mut told = |found: Vec<Problem>, all: bool| {
@@ -141,6 +148,9 @@ pub(super) fn tree_of(scenario: &Scenario, machine: &Machine) -> Table {
         }
         root.extend(own);
     }
+    let mut of_all = Tree::default();
+    sections::scenario(&mut of_all, &mut Scenario { simulation: scenario.of_all(), ..scenario.clone() });
+    root.extend(of_all.table.remove("simulation").map(|entry| ("simulation".to_owned(), entry)));
     root.insert("bearing".into(), Entry { key_span: None, node: Node::unplaced(Value::Array(seats)) });
     root
 }
@@ -163,7 +173,8 @@ pub(super) fn write(scenario: &Scenario, machine: &Machine, provenance: &[Proven
         text.push_str(&part(Part::Bearing, &own, &alone));
     }
     text.push_str(&rest);
-    text.push_str(&part(Part::OfAll, provenance, scenario));
+    let of_all = Scenario { simulation: scenario.of_all(), ..scenario.clone() };
+    text.push_str(&part(Part::OfAll, provenance, &of_all));
     text
 }
 

@@ -1,7 +1,8 @@
 //! A machine's file as the files of its bearings: each has the keys of a scenario of one bearing, of which some are shared.
 
 use super::super::source::{Entry, Node, Table, Value};
-use crate::scenario::LoadOn;
+use crate::bearing::catalogue;
+use crate::scenario::{Choice, Element, LoadOn, ModelKind, Start};
 
 /// Sections that a bearing of a machine has within its table.
 pub(in super::super) const OF_A_BEARING: [&str; 6] = ["cage", "contact", "friction", "lubricant", "support", "defects"];
@@ -78,10 +79,19 @@ pub(super) fn alone(root: &Table, bearing: &Node) -> Table {
             alone.insert(name.into(), section);
         }
     }
+    let has_balls = has_balls(&own);
     alone.insert("bearing".into(), unplaced(own));
     let text = |word: &str| Value::Text(word.into());
+    // Balls have no ends that could tilt: beside rollers that do they stay in the plane.
+    if let Some(Value::Table(simulation)) = alone.get_mut("simulation").map(|entry| &mut entry.node.value)
+        && has_balls
+        && matches!(simulation.get("model").map(|of| &of.node.value), Some(Value::Text(word)) if word == ModelKind::Tilting.word())
+    {
+        simulation.insert("model".into(), unplaced(Node::unplaced(text(ModelKind::Full.word()))));
+    }
     give(&mut alone, "operation", "load_n", Value::Array(vec![Node::unplaced(Value::Float(0.0)); 2]));
-    give(&mut alone, "operation", "load_on", text(crate::scenario::Choice::word(LoadOn::InnerRing)));
+    give(&mut alone, "operation", "load_on", text(LoadOn::InnerRing.word()));
+    give(&mut alone, "simulation", "start", text(Start::Equilibrium.word()));
     let record = RECORD.map(|pattern| Node::unplaced(text(pattern)));
     give(&mut alone, "simulation", "record", Value::Array(record.to_vec()));
     for name in ["inner_stiffness_n_per_m", "inner_damping_ns_per_m"] {
@@ -89,6 +99,17 @@ pub(super) fn alone(root: &Table, bearing: &Node) -> Table {
     }
     give(&mut alone, "housing", "mass_kg", Value::Float(0.0));
     alone
+}
+
+/// Whether a bearing's table is of balls, as far as it can be told.
+fn has_balls(bearing: &Node) -> bool {
+    let Some(table) = table_of(bearing) else { return false };
+    let word = |name: &str| match table.get(name).map(|entry| &entry.node.value) {
+        Some(Value::Text(word)) => Some(word.as_str()),
+        _ => None,
+    };
+    let of_preset = || word("preset").and_then(catalogue::find).is_some_and(catalogue::Entry::has_balls);
+    word("element").map_or_else(of_preset, |element| element == Element::Ball.word())
 }
 
 /// What of the file is the machine's own: shaft, seats, housings, sensors, and keys that nobody knows.
