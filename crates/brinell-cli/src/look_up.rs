@@ -214,28 +214,52 @@ fn find(name: &str) -> Result<KnownBearing, Failure> {
 const ORDERS: f64 = 60.0;
 
 pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
-    let Asked { orders, source, speed_rpm: own_speed } = asked(args)?;
-    let rpm = args.speed.or(own_speed).unwrap_or(ORDERS);
+    let all = asked(args)?;
+    if args.json && all.len() > 1 {
+        let values =
+            all.into_iter().map(|one| Ok(values(&one, speed(args, &one)?))).collect::<Result<Vec<_>, Failure>>()?;
+        document(&serde_json::json!({ "bearings": values }).to_string());
+        return Ok(ExitCode::SUCCESS);
+    }
+    for one in &all {
+        print_frequencies(args, one)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// r/min.
+fn speed(args: &FrequenciesArgs, of: &Asked) -> Result<f64, Failure> {
+    let rpm = args.speed.or(of.speed_rpm).unwrap_or(ORDERS);
     if !rpm.is_finite() || rpm == 0.0 {
         return Err(Failure::Usage(format!("--speed {rpm}: expected a speed other than 0, in r/min")));
     }
-    let rows = frequencies_of(orders, rpm);
+    Ok(rpm)
+}
+
+fn values(of: &Asked, rpm: f64) -> Value {
+    let rows = frequencies_of(of.orders, rpm);
+    let values: serde_json::Map<String, Value> = rows
+        .iter()
+        .map(|(name, hz, _)| (format!("{}_hz", name.to_lowercase().replace(' ', "")), (*hz).into()))
+        .chain([("speed_rpm".to_owned(), rpm.into()), ("source".to_owned(), of.source.clone().into())])
+        .collect();
+    Value::Object(values)
+}
+
+fn print_frequencies(args: &FrequenciesArgs, of: &Asked) -> Result<(), Failure> {
+    let rpm = speed(args, of)?;
     if args.json {
-        let values: serde_json::Map<String, Value> = rows
-            .iter()
-            .map(|(name, hz, _)| (format!("{}_hz", name.to_lowercase().replace(' ', "")), (*hz).into()))
-            .chain([("speed_rpm".to_owned(), rpm.into()), ("source".to_owned(), source.into())])
-            .collect();
-        document(&Value::Object(values).to_string());
+        document(&values(of, rpm).to_string());
     } else {
+        let rows = frequencies_of(of.orders, rpm);
         say!("Pure rolling at {} r/min, outer ring at rest", plain_number(rpm));
         // Of a bearing known by its orders alone one may be missing.
         for (name, hz, meaning) in rows.into_iter().filter(|row| row.1.is_finite()) {
             say!("  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}", hz / (rpm.abs() / 60.0));
         }
-        say!("{source}");
+        say!("{}", of.source);
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// The bearing that is asked about.
@@ -247,8 +271,9 @@ struct Asked {
     speed_rpm: Option<f64>,
 }
 
-fn asked(args: &FrequenciesArgs) -> Result<Asked, Failure> {
-    let of = |(orders, source)| Asked { orders, source, speed_rpm: None };
+/// One, or the bearings of a machine.
+fn asked(args: &FrequenciesArgs) -> Result<Vec<Asked>, Failure> {
+    let of = |(orders, source)| vec![Asked { orders, source, speed_rpm: None }];
     let (elements, called) = (args.elements.numbers(), Called::Options(""));
     let known = |name: &str| Ok(of(elements.of_known(find(name)?, called)?));
     let Some(bearing) = &args.bearing else {
@@ -264,10 +289,17 @@ fn asked(args: &FrequenciesArgs) -> Result<Asked, Failure> {
         };
     };
     match scenario_meant(bearing)? {
-        Some(Scenario { bearing: own, operation, .. }) => {
+        Some(scenario) => {
             elements.no_angle_of(bearing, called)?;
-            let source = format!("the scenario {bearing}");
-            Ok(Asked { orders: orders_of(&own), source, speed_rpm: operation.speed_rpm.constant() })
+            let one = |(k, own): (usize, Scenario)| {
+                let name = own.bearing.preset.as_deref().map_or(String::new(), |name| format!(" ({name})"));
+                let source = match scenario.machine {
+                    None => format!("the scenario {bearing}"),
+                    Some(_) => format!("bearing {}{name} of the scenario {bearing}", k + 1),
+                };
+                Asked { orders: orders_of(&own.bearing), source, speed_rpm: own.operation.speed_rpm.constant() }
+            };
+            Ok(scenario.bearings().into_iter().enumerate().map(one).collect())
         }
         None => known(bearing),
     }

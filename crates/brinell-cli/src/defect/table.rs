@@ -7,6 +7,7 @@ use crate::files::Source;
 use crate::say::{say, short};
 use brinell::defect::{SIDES, Side};
 use brinell::model::Model;
+use brinell::plausibility::observed;
 use brinell::scenario::{Law, ModelKind, Surface};
 use brinell_io::atomic_write;
 
@@ -41,7 +42,8 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Failure> {
     };
     source.inputs().spare(&args.output)?;
     let index = args.defect - 1;
-    let model = Model::new(s).map_err(|error| Failure::Usage(error.to_string()))?;
+    // In a machine for the load that it carries there.
+    let model = Model::new(&observed(s)).map_err(|error| Failure::Usage(error.to_string()))?;
     let Some(table) = model.defects[index].table(side) else {
         let other = (0..index).find(|k| SIDES.iter().any(|side| model.defects[*k].table(*side).is_some()));
         return Err(Failure::Usage(format!(

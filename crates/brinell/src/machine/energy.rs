@@ -66,7 +66,8 @@ impl Machine {
         let (driven, gravity) = (self.driven(t), self.leading().gravity);
         // What a rigid motion feels: no spring between the structure's own parts, and no gyroscopic term.
         let outer = |k: usize| structure.driving(k, driven) - structure.squares[k] * q[k] - structure.dampers[k] * v[k];
-        let mut worst: f64 = 0.0;
+        // Of both directions: in one of them there may be no force to speak of.
+        let (mut worst, mut most): (f64, f64) = (0.0, 0.0);
         for along in 0..2 {
             let momentum = &structure.momentum[along];
             let (pulled, weight) = (momentum.of_each(outer), momentum.square() * gravity[along]);
@@ -88,8 +89,9 @@ impl Machine {
                     scale += force.abs();
                 }
             }
-            worst = worst.max(if scale > 0.0 { sum.abs() / scale } else { 0.0 });
+            worst = worst.max(sum.abs());
+            most = most.max(scale);
         }
-        worst
+        if most > 0.0 { worst / most } else { 0.0 }
     }
 }

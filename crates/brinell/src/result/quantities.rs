@@ -294,6 +294,11 @@ pub fn check_name(name: &str, names: &[String]) -> Result<(), UnknownName> {
     Err(UnknownName { name: name.to_owned(), near: near.map(str::to_owned), such_as })
 }
 
+/// Whether a channel is a sensor's, which says by its name that it passed the filter: `sensor_ax`, and a machine's `housing1.drive_end`.
+fn is_of_sensor(channel: &str) -> bool {
+    channel.starts_with("sensor_") || unit_of_machine(channel).is_some()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -308,9 +313,4 @@ mod tests {
         let found = [(250.1, peak(245.9)), (319.9, None), (241.3, peak(245.9)), (482.6, peak(480.0))];
         assert_eq!(own_levels(&found), [Some(2.0), None, None, Some(2.0)]);
     }
-}
-
-/// Whether a channel is a sensor's, which says by its name that it passed the filter: `sensor_ax`, and a machine's `housing1.drive_end`.
-fn is_of_sensor(channel: &str) -> bool {
-    channel.starts_with("sensor_") || unit_of_machine(channel).is_some()
 }

@@ -218,7 +218,15 @@ pub(super) fn of_bearings(
     problems: &mut Vec<Problem>,
 ) {
     let place = |key: &str| at(root, key).and_then(|node| Some(Place::new(text, node.span.clone()?)));
-    let tilts = bearings.first().is_some_and(|of| of.simulation.model == ModelKind::Tilting);
+    for (k, (seat, bearing)) in machine.seats.iter().zip(bearings).enumerate() {
+        let is_misaligned = seat.misalignment_mrad.iter().any(|slope| *slope != 0.0);
+        if is_misaligned && bearing.simulation.model != ModelKind::Tilting {
+            let key = format!("bearing.{k}.misalignment_mrad");
+            let message = "has no effect: it acts only on rollers, where simulation.model is \"tilting\"";
+            problems.push(Problem::new(Severity::Warning, key.clone(), message).at(place(&key)));
+        }
+    }
+    let tilts = bearings.iter().any(|of| of.simulation.model == ModelKind::Tilting);
     if tilts && machine.seats.iter().any(|seat| seat.fit_stiffness_n_per_m.is_some()) {
         let message = "where rings tilt, outer rings sit in their housings rigidly";
         problems.push(Problem::error("simulation.model", message).allowed("\"full\", or no fit_stiffness_n_per_m"));
