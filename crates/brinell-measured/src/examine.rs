@@ -122,7 +122,9 @@ fn options(
     let mut options = Options::new(turning.map_or(0.0, Turning::shaft), orders);
     options.tolerance = request.tolerance();
     options.silent = measurement.silent;
-    let is_asked = request.speed.is_some() || request.names_a_bearing();
+    // Of a machine any bearing may be named: its speed is known all the same.
+    let in_machine = measurement.run.as_ref().is_some_and(|run| run.scenario.machine.is_some());
+    let is_asked = request.speed.is_some() || request.names_a_bearing() && !in_machine;
     options.exact = request.simulated || (measurement.run.is_some() && !is_asked);
     options.supply = request.supply;
     options.band = request.band;

@@ -1,10 +1,11 @@
 //! What an engineer would ask about a machine: what each bearing carries, whether anything has weight, whether a channel is meant.
 
 use super::warning::{WEIGHT_SHARE, short, warning};
+use crate::bearing::clearance::bore_diameter_mm;
 use crate::document::Problem;
 use crate::machine::{Balance, Carried, Machine};
 use crate::model::Model;
-use crate::scenario::{LoadOn, Scenario};
+use crate::scenario::{LoadOn, Scenario, Seat};
 use crate::simulate::Simulation;
 
 /// The bearings of a machine in its static balance, each on its own: its scenario with the load that it carries on the inner ring, and the
@@ -63,7 +64,34 @@ pub(super) fn warnings(scenario: &Scenario, simulation: &Simulation) -> Vec<Prob
         let allowed = "names of channels, such as \"bearing1.outer_ax\", \"shaft.x1\"; * stands for any characters";
         Problem::warning("simulation.record", message).allowed(allowed)
     });
-    idle.chain(weightless(scenario, simulation.machine())).collect()
+    idle.chain(weightless(scenario, simulation.machine())).chain(bores(scenario)).collect()
+}
+
+/// Share by which a shaft may differ from the bore of a bearing on it.
+const BORE_SHARE: f64 = 0.05;
+
+/// Bearings that do not fit the shaft where they sit.
+fn bores(scenario: &Scenario) -> Vec<Problem> {
+    let Some(of) = &scenario.machine else { return Vec::new() };
+    let (stations, diameters) = (&of.shaft.stations_mm, &of.shaft.diameters_mm);
+    let misfit = |(k, (seat, bearing)): (usize, (&Seat, Scenario))| {
+        let bore = bore_diameter_mm(&bearing.bearing)?;
+        let touches = |ends: &[f64]| (ends[0]..=ends[1]).contains(&seat.at_mm);
+        let near = stations.windows(2).zip(diameters).filter(|(ends, _)| touches(ends));
+        let fits = near.clone().any(|(_, diameter)| (diameter / bore - 1.0).abs() <= BORE_SHARE);
+        let (_, diameter) = near.clone().next()?;
+        (!fits).then(|| {
+            let message = format!(
+                "bearing {}: its bore is {} mm, and the shaft there {} mm thick",
+                k + 1,
+                short(bore),
+                short(*diameter)
+            );
+            Problem::warning(format!("bearing.{k}.at_mm"), message)
+                .allowed("a part of the shaft that fits, or another bearing")
+        })
+    };
+    of.each(scenario).enumerate().filter_map(misfit).collect()
 }
 
 /// A shaft whose weight is left out and counts beside the load.

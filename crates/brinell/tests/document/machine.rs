@@ -249,3 +249,17 @@ fn prop_a_ball_bearing_stands_beside_rollers_that_tilt() {
     assert_eq!(loaded.scenario.problems(), []);
     assert!(brinell::simulate::Simulation::new(&loaded.scenario).is_ok());
 }
+
+/// A short thick shaft has no mode that a run could not follow in the bearings' own steps.
+#[test]
+fn prop_a_shaft_does_not_shorten_the_step() {
+    let steps = |rigid: &str| {
+        let text = format!(
+            "[shaft]\nstations_mm = [0, 200]\ndiameters_mm = [30]\nrigid = {rigid}\n[[shaft.load]]\nat_mm = 100\nforce_n = [0, -1000]\n[[bearing]]\npreset = \"6206\"\nat_mm = 40\n[[bearing]]\npreset = \"6206\"\nat_mm = 160\n[operation]\nspeed_rpm = 1800\n[simulation]\nduration_s = 0.05\n"
+        );
+        let simulation = brinell::simulate::Simulation::new(&good(&text).scenario).unwrap();
+        simulation.run(&mut ()).work.solver.steps
+    };
+    let [rigid, bends] = ["true", "false"].map(steps);
+    assert!(bends < rigid + rigid / 20, "{bends} and {rigid} steps");
+}
