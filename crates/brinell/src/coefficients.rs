@@ -3,7 +3,7 @@
 //!
 //! The outer ring is held and the inner one carries the load, without tilt; supports and the rings' weights take no part. Elements have
 //! their weight and the centrifugal force of pure rolling, lie still in balance between the raceways and are condensed out; friction, cage and the
-//! rates that come of orbiting are left out. Stiffness, damping and displacement are means over [`PHASES`] positions of the cage in a pitch.
+//! rates that come of orbiting are left out. Stiffness, damping and displacement are means over 64 positions of the cage in a pitch.
 
 use crate::model::{Model, Support};
 use crate::operation::Load;

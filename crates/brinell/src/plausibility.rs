@@ -27,7 +27,7 @@ use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::{after, converted, doubtful, of_energy, strayed, unsettled};
 pub use machine::{carried, observed};
 use std::f64::consts::TAU;
-use warning::{WEIGHT_SHARE, short, warning};
+use warning::{NO_LOAD, WEIGHT_SHARE, short, warning};
 
 /// Share of the load beyond which what a support carries is worth a warning.
 const SUPPORT_SHARE: f64 = 0.1;
@@ -66,7 +66,7 @@ impl Beforehand {
                     carried(scenario, machine, &balance).iter().map(|(alone, model)| Self::of(alone, model)).collect();
                 let mut warnings = machine::warnings(scenario, simulation);
                 for (k, one) in each.iter().enumerate() {
-                    warnings.extend(machine::of_bearing(k, &one.warnings));
+                    warnings.extend(machine::of_bearing(k, !of.shaft.unbalance.is_empty(), &one.warnings));
                 }
                 Self { statics: each.swap_remove(of.lead).statics, warnings: few_of_a_kind(warnings) }
             }
@@ -133,7 +133,7 @@ fn no_load(scenario: &Scenario, model: &Model) -> Option<Problem> {
         LOAD,
         list(o.load_n),
         format!(
-            "there is neither load nor weight: the centrifugal force of {} N a {} is all that presses the contacts",
+            "{NO_LOAD}: the centrifugal force of {} N a {} is all that presses the contacts",
             short(force),
             scenario.bearing.element.word()
         ),

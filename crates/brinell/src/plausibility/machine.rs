@@ -1,6 +1,6 @@
 //! What an engineer would ask about a machine: what each bearing carries, whether anything has weight, whether a channel is meant.
 
-use super::warning::{WEIGHT_SHARE, short, warning};
+use super::warning::{NO_LOAD, WEIGHT_SHARE, short, warning};
 use crate::bearing::clearance::bore_diameter_mm;
 use crate::document::Problem;
 use crate::machine::{Balance, Carried, Machine};
@@ -41,10 +41,13 @@ pub fn observed(scenario: &Scenario) -> Scenario {
     under_load().unwrap_or_else(|| scenario.bearing_of_machine(of.lead))
 }
 
-/// Of a bearing's warnings those that a machine does not answer, with the bearing's number.
-pub(super) fn of_bearing(k: usize, warnings: &[Problem]) -> impl Iterator<Item = Problem> {
+/// Of a bearing's warnings those that a machine does not answer, with the bearing's number; `turns`: whether anything is out of balance.
+pub(super) fn of_bearing(k: usize, turns: bool, warnings: &[Problem]) -> impl Iterator<Item = Problem> {
     const ANSWERED: [&str; 3] = ["support.", "simulation.record", "operation.gravity_m_per_s2"];
-    let concerns = |warning: &&Problem| !ANSWERED.iter().any(|key| warning.key.starts_with(key));
+    // Unbalance is a load.
+    let answered = move |warning: &Problem| turns && warning.message.starts_with(NO_LOAD);
+    let concerns =
+        move |warning: &&Problem| !ANSWERED.iter().any(|key| warning.key.starts_with(key)) && !answered(warning);
     let numbered = move |warning: &Problem| {
         let key = match warning.key.as_str() {
             "operation.load_n" => "shaft.load".into(),

@@ -3,6 +3,8 @@
 use crate::document::{Problem, unit_of_key};
 use crate::signal;
 
+/// How the warning of a bearing without load begins.
+pub(super) const NO_LOAD: &str = "there is neither load nor weight";
 /// Share of the load beyond which a weight that is left out is worth a warning.
 pub(super) const WEIGHT_SHARE: f64 = 0.1;
 
