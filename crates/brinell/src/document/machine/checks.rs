@@ -6,7 +6,7 @@ use super::super::problems::Problems;
 use super::super::source::{Table, Value};
 use super::super::toml_text::float;
 use super::tables::{OF_THE_SHAFT, at, given};
-use crate::scenario::{HousingMode, HousingModes, Machine, MachineHousing, ModelKind, Scenario, SensorOn};
+use crate::scenario::{Choice, HousingMode, HousingModes, Machine, MachineHousing, ModelKind, Scenario, SensorOn};
 use brinell_shaft::normal_modes;
 
 /// Stations of a shaft, and bearings on it, at most: its modes are found of as many nodes and more, and each bearing is a model of its own.
@@ -227,6 +227,12 @@ pub(super) fn of_bearings(
         }
     }
     let tilts = bearings.iter().any(|of| of.simulation.model == ModelKind::Tilting);
+    let asked = at(root, "simulation.model").is_some_and(|node| node.text().contains(ModelKind::Tilting.word()));
+    if asked && !tilts && !bearings.is_empty() {
+        let key = "simulation.model";
+        let message = "has no effect: every bearing is of balls, which have no ends that could tilt";
+        problems.push(Problem::new(Severity::Warning, key, message).at(place(key)));
+    }
     if tilts && machine.seats.iter().any(|seat| seat.fit_stiffness_n_per_m.is_some()) {
         let message = "where rings tilt, outer rings sit in their housings rigidly";
         problems.push(Problem::error("simulation.model", message).allowed("\"full\", or no fit_stiffness_n_per_m"));
