@@ -263,3 +263,17 @@ fn prop_a_shaft_does_not_shorten_the_step() {
     let [rigid, bends] = ["true", "false"].map(steps);
     assert!(bends < rigid + rigid / 20, "{bends} and {rigid} steps");
 }
+
+#[test]
+fn prop_damage_is_where_the_shafts_load_is_if_nothing_else_is_said() {
+    let without = MOTOR.replace("center_deg = -90.0\n", "");
+    for (changes, degrees) in
+        [(&[][..], -90.0), (&[("shaft.load.0.force_n", "[200, 0]")], 0.0), (&[("shaft.load", "[]")], -90.0)]
+    {
+        let changes: Vec<_> =
+            changes.iter().map(|(key, value): &(&str, &str)| ((*key).into(), (*value).into())).collect();
+        let scenario = read(&without, &changes).unwrap().scenario;
+        assert!((scenario.defects[0].center_deg - degrees).abs() < 1e-9, "{}", scenario.defects[0].center_deg);
+        assert_eq!(scenario.operation.load_n, [0.0; 2]);
+    }
+}

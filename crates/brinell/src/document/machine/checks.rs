@@ -11,7 +11,7 @@ use brinell_shaft::normal_modes;
 
 /// Stations of a shaft, and bearings on it, at most: its modes are found of as many nodes and more, and each bearing is a model of its own.
 const MOST_STATIONS: usize = 200;
-const MOST_BEARINGS: usize = 20;
+pub(super) const MOST_BEARINGS: usize = 20;
 
 /// Adds what is wrong to the problems of the reader.
 pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Problems<'a>) -> Problems<'a> {

@@ -37,7 +37,7 @@ pub(super) fn read(text: &str, root: &Table) -> Result<Loaded, Vec<Problem>> {
     let mut problems = checks::check(&machine, &finder, reader.problems).finish();
     let mut bearings = Vec::new();
     let mut provenance = Vec::new();
-    for (k, node) in tables::bearings(root).iter().enumerate() {
+    for (k, node) in tables::bearings(root).iter().enumerate().take(checks::MOST_BEARINGS) {
         let mut own = tables::alone(root, node);
         own.extend(root.get("name").map(|name| ("name".to_owned(), name.clone())));
         own.extend(recorded_of(root, k).map(|entry| (SECTION.to_owned(), entry)));
@@ -72,7 +72,10 @@ pub(super) fn read(text: &str, root: &Table) -> Result<Loaded, Vec<Problem>> {
         match alone::read(text, &own) {
             Ok(loaded) => {
                 told(loaded.warnings, false);
-                bearings.push(loaded.scenario);
+                // Its load is the shaft's.
+                let mut bearing = loaded.scenario;
+                bearing.operation.load_n = [0.0; 2];
+                bearings.push(bearing);
                 let given_here = loaded.provenance.into_iter().filter(|p| concerns(&p.key) || given(root, &p.key));
                 for mut entry in given_here {
                     entry.key = rename(&entry.key);

@@ -89,7 +89,9 @@ pub(super) fn alone(root: &Table, bearing: &Node) -> Table {
     {
         simulation.insert("model".into(), unplaced(Node::unplaced(text(ModelKind::Full.word()))));
     }
-    give(&mut alone, "operation", "load_n", Value::Array(vec![Node::unplaced(Value::Float(0.0)); 2]));
+    // Which way, for what is where the load is if nothing else is said; how much, the balance finds.
+    let load = direction(root).map(|f| Node::unplaced(Value::Float(f)));
+    give(&mut alone, "operation", "load_n", Value::Array(load.to_vec()));
     give(&mut alone, "operation", "load_on", text(LoadOn::InnerRing.word()));
     give(&mut alone, "simulation", "start", text(Start::Equilibrium.word()));
     let record = RECORD.map(|pattern| Node::unplaced(text(pattern)));
@@ -99,6 +101,27 @@ pub(super) fn alone(root: &Table, bearing: &Node) -> Table {
     }
     give(&mut alone, "housing", "mass_kg", Value::Float(0.0));
     alone
+}
+
+/// The way of the shaft's loads together, or of its weight, as 1 N; nothing where there is neither.
+fn direction(root: &Table) -> [f64; 2] {
+    let pair = |node: Option<&Node>| match node.map(|node| &node.value) {
+        Some(Value::Array(items)) if items.len() == 2 => [0, 1].map(|k: usize| match items[k].value {
+            Value::Float(x) => x,
+            Value::Integer(x) => x as f64,
+            _ => 0.0,
+        }),
+        _ => [0.0; 2],
+    };
+    let loads = match at(root, "shaft.load").map(|node| &node.value) {
+        Some(Value::Array(loads)) => &loads[..],
+        _ => &[],
+    };
+    let each = loads.iter().map(|load| pair(table_of(load).and_then(|load| at(load, "force_n"))));
+    let sum = each.fold([0.0; 2], |sum: [f64; 2], f| [sum[0] + f[0], sum[1] + f[1]]);
+    let of = if sum == [0.0; 2] { pair(at(root, "operation.gravity_m_per_s2")) } else { sum };
+    let size = of[0].hypot(of[1]);
+    if size > 0.0 && size.is_finite() { of.map(|f| f / size) } else { [0.0; 2] }
 }
 
 /// Whether a bearing's table is of balls, as far as it can be told.
