@@ -20,6 +20,11 @@ WRONG = {
         ("bearing", "no_such_key", 1.0),
         ("operation", "speed_rpm", "fast"),
     ],
+    "brinell machine": [
+        ("shaft", "no_such_key", 1.0),
+        ("shaft", "stations_mm", "long"),
+        ("operation", "load_n", [0.0, 1.0]),
+    ],
     "brinell plan": [
         ("", "no_such_key", 1.0),
         ("", "runs", 0),

@@ -1,6 +1,6 @@
 //! The keys of a machine beside those of its bearings, once and in order: shaft, seats, housings, sensors.
 
-use super::super::keys::Fallback::Required;
+use super::super::keys::Fallback::{Needed, Required};
 use super::super::keys::{Keys, assumed, derived, stated};
 use super::super::modes_value::FASTEST_HZ;
 use super::super::spec::key;
@@ -132,7 +132,8 @@ fn disc<K: Keys>(k: &mut K, density: f64, d: &mut Disc) {
     });
     let of = |value: fn(&brinell_shaft::Disc) -> f64| {
         let value = cylinder.as_ref().map(|cylinder| rounded(value(cylinder), 6));
-        value.map_or(Required, |value| derived(value, "a cylinder of the shaft's material"))
+        value
+            .map_or(Needed("or diameter_mm and width_mm"), |value| derived(value, "a cylinder of the shaft's material"))
     };
     k.key(key("mass_kg", "or diameter_mm and width_mm").above(0.0), of(|c| c.mass), &mut d.mass_kg);
     k.key(
