@@ -251,6 +251,10 @@ pub struct Simulation {
 /// What `make` makes of each bearing of a scenario.
 fn each<T>(scenario: &Scenario, make: impl Fn(&Scenario) -> Result<T, ModelError>) -> Result<Vec<T>, Error> {
     match &scenario.machine {
+        // The studio's page runs one bearing: the browser is spared the matrices of shafts.
+        Some(_) if cfg!(target_arch = "wasm32") => {
+            Err(vec![Problem::error("shaft", "a machine is run by `brinell run`, not in a browser")].into())
+        }
         Some(of) => Ok(machine::bearings(scenario, of)?.iter().map(make).collect::<Result<_, _>>()?),
         None => Ok(vec![make(scenario)?]),
     }
@@ -342,7 +346,7 @@ impl Simulation {
 
     /// Of the models of its bearings.
     fn of(scenario: &Scenario, mut models: Vec<Model>) -> Result<Self, Error> {
-        if let Some(of) = &scenario.machine {
+        if let Some(of) = scenario.machine.as_ref().filter(|_| !cfg!(target_arch = "wasm32")) {
             let models = models.into_iter().map(machine::unloaded).collect();
             let made = Self::of_machine(machine::machine(of, models)?, &Recording::of(scenario))?;
             let shown = scenario.shown_channel();
