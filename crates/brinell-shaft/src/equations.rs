@@ -48,6 +48,16 @@ pub enum Whirl {
     Backward,
 }
 
+impl Whirl {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Forward => "forward",
+            Self::Backward => "backward",
+        }
+    }
+}
+
 /// A natural motion at a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {

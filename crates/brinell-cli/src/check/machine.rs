@@ -10,7 +10,7 @@ use brinell::analysis::STANDARD_GRAVITY;
 use brinell::bearing::catalogue;
 use brinell::derived::{DerivedBearing, DerivedMachine, machine_to_json};
 use brinell::document::Loaded;
-use brinell::machine::{Mode, Whirl};
+use brinell::machine::Mode;
 use brinell::plausibility::Beforehand;
 use brinell::scenario::Machine;
 use brinell::simulate::Simulation;
@@ -121,18 +121,11 @@ fn shaft(of: &Machine, derived: &DerivedMachine) {
         short(60.0 * derived.top_speed / TAU, 5)
     );
     for Mode { frequency, damping_ratio, whirl } in derived.modes(derived.top_speed).into_iter().take(MOST) {
-        say!("  {:>10} Hz   damping ratio {:<8} {}", short(frequency, 5), short(damping_ratio, 2), way(whirl));
+        say!("  {:>10} Hz   damping ratio {:<8} {}", short(frequency, 5), short(damping_ratio, 2), whirl.word());
     }
     let critical = derived.critical_speeds();
     say!("Critical speeds{}", if critical.is_empty() { ": none" } else { "" });
     for (speed, whirl) in critical.into_iter().take(MOST) {
-        say!("  {:>10} r/min  {}", short(60.0 * speed / TAU, 5), way(whirl));
-    }
-}
-
-fn way(whirl: Whirl) -> &'static str {
-    match whirl {
-        Whirl::Forward => "forward",
-        Whirl::Backward => "backward",
+        say!("  {:>10} r/min  {}", short(60.0 * speed / TAU, 5), whirl.word());
     }
 }

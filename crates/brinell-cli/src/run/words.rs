@@ -60,10 +60,9 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
 
 /// What the sensor read, a line for each of its channels.
 fn sensor_lines(simulation: &Simulation, findings: &Findings) -> Vec<String> {
-    let is_sensor = |name: &str| simulation.filtered().iter().any(|c| c.name == name && c.sensor_axis().is_some());
     let mut printed = Vec::new();
     for channel in &findings.channels {
-        let is_looked_at = is_sensor(&channel.name) || channel.name == findings.sensor;
+        let is_looked_at = simulation.is_sensor(&channel.name) || channel.name == findings.sensor;
         if channel.kind != Kind::AntiAliased || !is_looked_at {
             continue;
         }

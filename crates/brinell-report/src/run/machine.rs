@@ -70,9 +70,7 @@ fn bearings(scenario: &Scenario, machine: &Machine, derived: &DerivedMachine) ->
 }
 
 fn sensors(parts: &Parts) -> Table {
-    let filtered = parts.simulation.filtered();
-    let is_sensor = |name: &str| filtered.iter().any(|c| c.name == name && c.sensor_axis().is_some());
-    let of = parts.findings.channels.iter().filter(|c| is_sensor(&c.name));
+    let of = parts.findings.channels.iter().filter(|c| parts.simulation.is_sensor(&c.name));
     let row = |c: &brinell::observe::ChannelStatistics| {
         let of = |indicator| c.blocks.estimate(indicator).map_or("-".into(), |e| short(e.value, 3));
         vec![c.name.clone(), of(Indicator::Rms), of(Indicator::PeakToPeak), of(Indicator::Kurtosis)]
@@ -82,17 +80,10 @@ fn sensors(parts: &Parts) -> Table {
 }
 
 fn critical(derived: &DerivedMachine) -> Table {
-    let row = |(speed, whirl): (f64, Whirl)| vec![way(whirl).into(), short(60.0 * speed / TAU, 5)];
+    let row = |(speed, whirl): (f64, Whirl)| vec![whirl.word().into(), short(60.0 * speed / TAU, 5)];
     let speeds = derived.critical_speeds();
     let note = "Without damping, on the bearings\u{2019} stiffness at their load and at the top speed.";
     Table::new("Critical speeds", ["Whirl", "#Critical speed, r/min"], speeds.into_iter().take(LINES).map(row), note)
-}
-
-fn way(whirl: Whirl) -> &'static str {
-    match whirl {
-        Whirl::Forward => "forward",
-        Whirl::Backward => "backward",
-    }
 }
 
 /// Natural frequencies over the speed, with the line of one a turn.

@@ -55,7 +55,6 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
 /// The same of a machine: each bearing as on its own under the load that it carries, and what it carries; natural frequencies at the top speed and
 /// critical speeds.
 pub fn machine_to_json(scenario: &Scenario, of: &DerivedMachine) -> Value {
-    let whirl = |whirl: Whirl| if whirl == Whirl::Forward { "forward" } else { "backward" };
     let bearing = |one: &DerivedBearing| {
         let mut json = to_json(&one.scenario, &one.model, &one.derived);
         // Of a machine's channels and loads its own warnings tell.
@@ -68,8 +67,8 @@ pub fn machine_to_json(scenario: &Scenario, of: &DerivedMachine) -> Value {
         json["damping_ns_per_m"] = json!(damping);
         json
     };
-    let mode = |mode: Mode| json!({ "frequency_hz": mode.frequency, "damping_ratio": mode.damping_ratio, "whirl": whirl(mode.whirl) });
-    let critical = |(speed, way): (f64, Whirl)| json!({ "speed_rpm": rpm(speed), "whirl": whirl(way) });
+    let mode = |mode: Mode| json!({ "frequency_hz": mode.frequency, "damping_ratio": mode.damping_ratio, "whirl": mode.whirl.word() });
+    let critical = |(speed, whirl): (f64, Whirl)| json!({ "speed_rpm": rpm(speed), "whirl": whirl.word() });
     json!({
         "name": scenario.name,
         "top_speed_rpm": rpm(of.top_speed),

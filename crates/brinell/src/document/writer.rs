@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::keys::{Case, Fallback, Keys, Variant, variant_of};
+use super::machine::tables::{OF_ALL, OF_THE_SHAFT};
 use super::provenance::{Origin, Provenance};
 use super::spec::Spec;
 use super::value_type::{ValueType, Words};
@@ -41,13 +42,13 @@ impl Part {
             Self::Around => name != "bearing",
             Self::Seat(_) => name == "bearing",
             Self::Bearing => !["name", "operation", "housing", "sensor", "simulation"].contains(&name),
-            Self::OfAll => ["operation", "simulation"].contains(&name),
+            Self::OfAll => OF_ALL.contains(&name),
         }
     }
 
     /// Whether it has a key of a section: in a machine loads are the shaft's.
     fn has_key(self, section: &str, name: &str) -> bool {
-        self != Self::OfAll || section != "operation" || !["load_n", "load_on", "load_offset_mm"].contains(&name)
+        self != Self::OfAll || section != "operation" || !OF_THE_SHAFT.contains(&name)
     }
 
     /// The header of what is called so in the file of one bearing.

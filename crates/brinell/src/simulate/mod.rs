@@ -419,6 +419,11 @@ impl Simulation {
         &self.filtered
     }
 
+    /// Whether a channel of this name is what a sensor reads.
+    pub fn is_sensor(&self, name: &str) -> bool {
+        self.filtered.iter().any(|channel| channel.name == name && channel.sensor_axis().is_some())
+    }
+
     /// What is between the outer ring and the sensor channels, if anything is.
     pub fn sensor(&self) -> Option<&Chain> {
         self.sensor.as_ref()

@@ -15,11 +15,9 @@ pub(super) const MOST_BEARINGS: usize = 20;
 
 /// Adds what is wrong to the problems of the reader.
 pub(super) fn check<'a>(m: &Machine, finder: &'a Finder<'a>, mut problems: Problems<'a>) -> Problems<'a> {
-    let mut add = |severity: Severity, key: String, message: String, allowed: String| {
-        let problem = Problem::new(severity, key, message).allowed(allowed);
-        problems.add(finder.complete(problem, &[]), None);
+    let mut wrong = |key: String, message: String, allowed: String| {
+        problems.add(finder.complete(Problem::error(key, message).allowed(allowed), &[]), None);
     };
-    let mut wrong = |key: String, message: String, allowed: String| add(Severity::Error, key, message, allowed);
     let stations = &m.shaft.stations_mm;
     let key = |name: &str| format!("shaft.{name}");
     if stations.len() > MOST_STATIONS {

@@ -210,7 +210,7 @@ pub fn machine_schema() -> Json {
     for name in tables::OF_A_BEARING {
         bearing["properties"][name] = section(name);
     }
-    for name in ["cage", "contact", "friction", "lubricant"] {
+    for name in tables::SHARED {
         schema["properties"][name] = bearing["properties"][name].clone();
     }
     schema["properties"]["bearing"] =
@@ -218,7 +218,7 @@ pub fn machine_schema() -> Json {
     for name in tables::OF_ALL {
         schema["properties"][name] = section(name);
     }
-    for name in ["load_n", "load_on", "load_offset_mm"] {
+    for name in tables::OF_THE_SHAFT {
         if let Some(keys) = schema["properties"]["operation"]["properties"].as_object_mut() {
             keys.remove(name);
         }

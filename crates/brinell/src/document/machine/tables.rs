@@ -9,9 +9,9 @@ pub(in super::super) const OF_A_BEARING: [&str; 6] = ["cage", "contact", "fricti
 /// Of them those that may stand at the top of the file for all bearings.
 pub(in super::super) const SHARED: [&str; 4] = ["cage", "contact", "friction", "lubricant"];
 /// Sections that all bearings have in common.
-pub(super) const OF_ALL: [&str; 2] = ["operation", "simulation"];
+pub(in super::super) const OF_ALL: [&str; 2] = ["operation", "simulation"];
 /// Keys of `[operation]` that one bearing has and a machine does not: its loads are the shaft's.
-pub(super) const OF_THE_SHAFT: [&str; 3] = ["load_n", "load_on", "load_offset_mm"];
+pub(in super::super) const OF_THE_SHAFT: [&str; 3] = ["load_n", "load_on", "load_offset_mm"];
 /// Keys of where a bearing is.
 pub(super) const OF_A_SEAT: [&str; 6] =
     ["at_mm", "housing", "offset_um", "misalignment_mrad", "fit_stiffness_n_per_m", "fit_damping_ns_per_m"];
@@ -68,13 +68,9 @@ pub(super) fn alone(root: &Table, bearing: &Node) -> Table {
             if let (Value::Table(own), Some(Entry { node: Node { value: Value::Table(shared), .. }, .. })) =
                 (&mut section.node.value, alone.get(name))
             {
-                shared
-                    .iter()
-                    .filter(|(key, _)| !own.contains_key(*key))
-                    .map(|(key, entry)| (key.clone(), entry.clone()))
-                    .collect::<Vec<_>>()
-                    .into_iter()
-                    .for_each(|(key, entry)| drop(own.insert(key, entry)));
+                for (key, entry) in shared {
+                    own.entry(key.clone()).or_insert_with(|| entry.clone());
+                }
             }
             alone.insert(name.into(), section);
         }
