@@ -230,4 +230,5 @@ def analyze(
     machine_class: str | None,
     sensitivity: str | None,
     supply_hz: float | None,
+    size: bool,
 ) -> tuple[dict[str, Any], dict[str, Any], Findings]: ...

@@ -44,6 +44,9 @@ class Analysis:
     """How the shaft's speed changes during the record, ``lowest`` and ``highest`` in r/min and when, where lines tell it; None where it is steady."""
     flaws: list[str]
     """What is wrong with the record itself, in words: samples clipped or held, one event with most of the energy; empty of a sound one."""
+    size: dict[str, Any] | None
+    """``length_mm`` of the damage along the rolling direction with ``value``, ``low`` and ``high`` of its 95 % interval, or None and the ``reason``; None
+    where `size` was not asked for."""
     envelope: Spectrum
     """The envelope spectrum of the band in which the damage is highest over the noise, or of all."""
     report: dict[str, Any] = field(repr=False)
@@ -99,6 +102,7 @@ def analyze(
     machine_class: _MachineClass | None = None,
     sensitivity: str | None = None,
     supply_hz: float | None = None,
+    size: bool = False,
     _run: tuple[str, float] | None = None,
 ) -> Analysis:
     """Which component of a bearing is damaged, by a vibration signal, or that nothing shows it.
@@ -140,6 +144,8 @@ def analyze(
     supply_hz : float, optional
         Frequency of the motor's supply where an inverter makes it, known to 0.5 %, 1 to 1000: lines at its multiples are excluded. Those of 50 and
         60 Hz by default, where three are present.
+    size : bool
+        Also estimate how long the damage is along the rolling direction. The bearing's elements need known sizes.
 
     Raises
     ------
@@ -191,6 +197,7 @@ def analyze(
         machine_class if machine_class is None else text_of(machine_class, "machine_class", '"2-rigid"'),
         sensitivity if sensitivity is None else text_of(sensitivity, "sensitivity", '"100mV/g"'),
         perhaps(supply_hz, "supply_hz", "Hz"),
+        bool(size),
     )
     verdict, unit = report["verdict"], report["signal"]["unit"]
     return Analysis(
@@ -201,6 +208,7 @@ def analyze(
         report["severity"],
         report["drift"],
         report["flaws"],
+        report["size"],
         Spectrum._of(found, unit),
         report,
         findings,

@@ -2,6 +2,7 @@
 
 use crate::known::Known;
 use crate::measurement::Measurement;
+use crate::size::Length;
 use crate::stretch::Rest;
 use brinell::analysis::{Analysis, Comparison, Component, DefectOrders, Family, Levels};
 use brinell::document::Loaded;
@@ -36,6 +37,8 @@ pub struct Diagnosis {
     pub analysis: Analysis,
     /// Levels of the signal.
     pub levels: Levels,
+    /// How long the damage that leads is, where that is asked.
+    pub size: Option<Length>,
     /// What is to be said in view of the machine's other bearings.
     pub beside: Option<String>,
     /// The other bearing whose lines these are, where they are no frequency of this one.
@@ -65,6 +68,7 @@ impl Diagnosis {
             bearing,
             analysis,
             levels,
+            size: None,
             beside: None,
             lines_of: None,
             wrong: None,
@@ -89,8 +93,19 @@ impl Diagnosis {
         // What answers the question comes first.
         let at = if self.lines_of.is_some() { 0 } else { 1 };
         said.splice(at..at, self.beside.clone());
+        said.extend(self.size_text());
         said.extend(self.wrong.clone());
         said.join(" ")
+    }
+
+    /// The length of the damage in words, where it was asked.
+    fn size_text(&self) -> Option<String> {
+        Some(match self.size.as_ref()? {
+            Ok((mm, of)) => {
+                format!("Size: {mm:.1} mm along the rolling direction, 95 % within {:.1} to {:.1} mm.", of.low, of.high)
+            }
+            Err(why) => format!("Size: cannot tell: {why}."),
+        })
     }
 
     /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of

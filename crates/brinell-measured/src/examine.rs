@@ -8,6 +8,7 @@ use crate::known::Source;
 use crate::measurement::Measurement;
 use crate::problem::{Problem, Question};
 use crate::request::{Like, MOST, Request};
+use crate::size::length;
 use crate::speed::Turning;
 use crate::stretch::{Beyond, Reading, Rest};
 use brinell::analysis::{
@@ -56,12 +57,18 @@ pub fn examine(mut measurement: Measurement, request: &Request) -> Result<Findin
         bearings.push(Diagnosis::new(name, orders, analysis, levels));
     }
     let mut rest = reading.map(Reading::finish).transpose()?;
-    for diagnosis in &mut bearings {
+    for (diagnosis, asked) in bearings.iter_mut().zip(&asked) {
         let own = options(&measurement, request, diagnosis.bearing.value)?;
         if let Some(rest) = &rest {
             diagnosis.last = Some(look_at_last(&measurement, rest, own)?);
         }
         beside_own_run(&mut measurement, request, &mut diagnosis.analysis);
+        if request.size {
+            let rotation = diagnosis.analysis.options.rotation.clone();
+            let signal = (&measurement.x[..], measurement.rate.value);
+            let of = (request, *asked, measurement.run.as_deref());
+            diagnosis.size = Some(length(signal, &diagnosis.analysis, rotation.as_ref(), of));
+        }
         if let Some((path, of_other)) = &request.against {
             diagnosis.against = Some(lay_over(path, of_other, request, &measurement, &mut diagnosis.analysis)?);
         }

@@ -5,7 +5,7 @@ use crate::diagnosis::{Diagnosis, Findings};
 use crate::measurement::Measurement;
 use crate::stretch::Rest;
 use brinell::analysis::{Component, HEADLINES, to_json};
-use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK, objects};
+use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK, Written, objects};
 use serde_json::Value;
 
 objects! {
@@ -13,9 +13,12 @@ objects! {
     One<'a> {
         #[serde(flatten)] analysis: Value,
         brinell: &'static str, severity: Value, file: FileOf<'a>,
+        #[serde(skip_serializing_if = "Option::is_none")] size: Option<Value>,
         #[serde(skip_serializing_if = "Option::is_none")] whole: Option<Whole>,
         #[serde(skip_serializing_if = "Option::is_none")] against: Option<Beside<'a>>,
     }
+    /// The length of the damage, or why it is not known.
+    Size<'a> { length_mm: Option<Written>, #[serde(skip_serializing_if = "Option::is_none")] reason: Option<&'a str> }
     /// Of several bearings.
     Several<'a> {
         brinell: &'static str, file: FileOf<'a>, verdict: Value, leads: Option<&'a str>, bearings: Vec<Value>,
@@ -117,6 +120,7 @@ fn as_json(findings: &Findings, result: &Diagnosis) -> Value {
         brinell: brinell::VERSION,
         severity: result.levels.to_json(unit),
         file: FileOf { said: Some(said), ..FileOf::new(m) },
+        size: result.size_json(),
         whole,
         against: result.against.as_ref().map(|other| Beside {
             path: other.measurement.path.display().to_string(),
@@ -126,6 +130,18 @@ fn as_json(findings: &Findings, result: &Diagnosis) -> Value {
         }),
     };
     serde_json::to_value(one).unwrap_or_default()
+}
+
+impl Diagnosis {
+    /// The length of the damage, where it was asked: `length_mm` with `value`, `low` and `high`, or null and the `reason`.
+    pub fn size_json(&self) -> Option<Value> {
+        let size = self.size.as_ref()?;
+        let told = Size {
+            length_mm: size.as_ref().ok().map(|(value, of)| Written::new(*value, Some((of.low, of.high)))),
+            reason: size.as_ref().err().map(String::as_str),
+        };
+        serde_json::to_value(told).ok()
+    }
 }
 
 /// What was analysed; of several records each.

@@ -64,6 +64,8 @@ pub struct Request {
     pub against: Option<(PathBuf, Box<Request>)>,
     /// Whether that is of the same machine when healthy.
     pub healthy: bool,
+    /// Whether the length of the damage is wanted.
+    pub size: bool,
     /// Whether a simulation made the signal, whatever the file says.
     pub simulated: bool,
     /// Whether there is no time to simulate a run anew without its damage, to judge it beside that.

@@ -238,7 +238,7 @@ impl Findings {
             let report = AnalysisReport::of_findings(&brinell_report::Findings {
                 signal: Analyzed { name: title, x: &x, rate: m.rate.value, analysis: &lead.analysis },
                 unit: &m.unit.value,
-                verdict: &lead.analysis.verdict(),
+                verdict: &lead.verdict_text(),
                 notes: &found.notes,
                 warnings: &found.warnings,
                 speed: &found.speed,
@@ -274,6 +274,7 @@ pub(crate) fn analyze<'py>(
     machine_class: Option<&str>,
     sensitivity: Option<&str>,
     supply_hz: Option<f64>,
+    size: bool,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, Findings)> {
     let (x, array) = (slice(&x).into_owned(), x.as_unbound().clone_ref(py));
     let (count, [pitch, diameter, contact_angle]) = elements;
@@ -306,6 +307,7 @@ pub(crate) fn analyze<'py>(
         band: band_hz.map(|(low, high)| Band::between(low, high)),
         supply: supply_hz,
         machine_class: machine_class.map(class).transpose()?,
+        size,
         simulated,
         ..Request::new(Called::Keywords)
     };
@@ -324,6 +326,8 @@ pub(crate) fn analyze<'py>(
     let (lead, unit) = (found.lead(), &found.measurement.unit.value);
     let mut json = to_json(&lead.analysis, unit, found.velocity.as_ref(), None);
     json["severity"] = lead.levels.to_json(unit);
+    json["verdict"]["text"] = lead.verdict_text().into();
+    json["size"] = lead.size_json().into();
     let view = &lead.analysis.view;
     let envelope = spectrum_dict(py, view.spectrum.clone())?;
     envelope.set_item("mean", view.mean)?;

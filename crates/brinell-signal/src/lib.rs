@@ -61,6 +61,7 @@ pub mod distribution;
 pub mod envelope;
 mod error;
 pub mod estimate;
+pub mod events;
 #[doc(hidden)]
 pub mod fft;
 pub mod frequency;
@@ -96,6 +97,7 @@ pub use digits::{rounded, short};
 pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use estimate::{Estimate, InUnit, Interval, Written};
+pub use events::{EventSpacing, event_spacing};
 #[doc(hidden)]
 pub use frequency::FEWEST_PERIODS;
 pub use frequency::{LineFrequency, LineSearch, mean_rate_uncertainty};

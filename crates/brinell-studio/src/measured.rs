@@ -1,6 +1,6 @@
 //! A measured file: what it states of its signals, and one of them judged by that and by what was given.
 
-use crate::answers::{Judged, Line, Listed, Listened, MadeBy, Reply, Spectrum};
+use crate::answers::{Judged, Line, Listed, Listened, MadeBy, Reply, Spectrum, Verdict};
 use crate::judged;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
@@ -104,6 +104,7 @@ fn given(request: &Value) -> Answer<Request> {
         speed_channel: text("speed_channel"),
         tacho: text("tacho").map(|name| (name, pulses)),
         bearings: bearing.into_iter().collect(),
+        size: true,
         in_haste: true,
         ..Request::new(Called::Fields)
     })
@@ -129,7 +130,7 @@ pub(crate) fn judge(request: &Value, sent: &Arrays, arrays: &mut Arrays) -> Answ
     let shown = arrays.rounded(&unit.in_si(&x[..x.len().min(SHOWN)]));
     let mut si = |of: &signal::Spectrum| Spectrum::new(of.frequency_step, &unit.in_si(&of.amplitude), arrays);
     Ok(Reply::Judge(Box::new(Judged {
-        verdict: judged::verdict(analysis),
+        verdict: Verdict { words: found.lead().verdict_text(), ..judged::verdict(analysis) },
         warnings: found.warnings.clone(),
         used,
         levels: analysis.headlines(&unit.name),

@@ -163,8 +163,9 @@ pub mod derived;
 mod did_you_mean;
 pub mod document;
 #[doc(hidden)]
-pub mod effective;
+pub mod edge;
 #[doc(hidden)]
+pub mod effective;
 pub mod elementary;
 mod error;
 mod friction;

@@ -122,6 +122,9 @@ pub(crate) struct AnalyzeArgs {
         allow_negative_numbers = true
     )]
     pub(crate) against_full_scale: Option<String>,
+    /// Also estimate how long the damage is along the rolling direction, mm, with a 95 % interval
+    #[arg(long)]
+    pub(crate) size: bool,
     /// Write the result as JSON; `-` prints it instead of words
     #[arg(long, value_name = "PATH|-")]
     pub(crate) json: Option<PathBuf>,
@@ -185,6 +188,7 @@ impl AnalyzeArgs {
             machine_class: self.machine_class,
             against,
             healthy: self.healthy,
+            size: self.size,
             ..self.signal.request()
         })
     }

@@ -1,0 +1,161 @@
+//! How long the damage that a signal shows is, along the rolling direction.
+//!
+//! Two events a pass are sought at the rate that the verdict found ([`event_spacing`]): the element is unloaded behind the first edge and loaded again before the second. The
+//! damage is longer than the way between them by what the element goes meanwhile, at either edge [`inset`], which follows from the bearing's contacts and hardly depends on the load.
+
+use crate::asked::{Asked, Elements};
+use crate::request::Request;
+use brinell::analysis::{Analysis, Component, Family};
+use brinell::bearing::KnownBearing;
+use brinell::bearing::rating::static_rating;
+use brinell::document;
+use brinell::document::Loaded;
+use brinell::edge::inset;
+use brinell::scenario::{Bearing, Scenario, Surface};
+use brinell::signal::estimate::{MOST_FREEDOM, NORMAL};
+use brinell::signal::{EventSpacing, Interval, Rotation, event_spacing};
+use std::f64::consts::PI;
+
+/// Loads over the static load rating that machines run at: least, usual and most.
+const LOADS: [f64; 3] = [0.02, 0.06, 0.2];
+/// An event is as short as this share of the way from the edge to it.
+const SHORTEST: f64 = 0.35;
+/// Clarity of a spacing below which none is told: of simulated damage, one in twenty is another spacing than that of its ends (`validation/size`).
+const CLEAR: f64 = 0.085;
+/// Events farther apart than this share of the elements' spacing may be those of damage that takes the rest of it: the interval holds both. Below, that would leave elements
+/// hardly any raceway.
+const AMBIGUOUS: f64 = 0.35;
+/// The damage over the way between its events, [`inset`] counted in, as simulated damage of many outlines has it: least, middle and most in 95 %.
+const OUTLINE: [f64; 3] = [0.87, 1.0, 1.36];
+
+/// The length of damage along the rolling direction, with its 95 % interval, mm; or why it cannot be told.
+pub type Length = Result<(f64, Interval), String>;
+
+/// What is measured along.
+struct Way {
+    /// Between two elements along the damaged surface, m; of an element between its passes.
+    spacing: f64,
+    /// From an edge to the event, m, under the three loads.
+    insets: [f64; 3],
+}
+
+/// Of the damage that leads, in `x` sampled at `fs` Hz.
+pub(crate) fn length(
+    (x, fs): (&[f64], f64),
+    analysis: &Analysis,
+    rotation: Option<&Rotation>,
+    (request, asked, run): (&Request, Option<&Asked>, Option<&Loaded>),
+) -> Length {
+    let Some(lead) = analysis.causes().find(|family| family.component != Component::Cage) else {
+        return Err("no damage of a race or of an element was found".into());
+    };
+    let way = Bodies::of(request, asked, run)?.way(lead.component)?;
+    told((x, fs), lead, (rotation, analysis.shaft), &way)
+}
+
+fn told((x, fs): (&[f64], f64), lead: &Family, (rotation, shaft): (Option<&Rotation>, f64), way: &Way) -> Length {
+    let speed = way.spacing * lead.frequency;
+    let shortest = SHORTEST * way.insets[1] / speed;
+    let mm = |seconds: f64| 1e3 * seconds * speed;
+    let rotation = rotation.map(|rotation| (rotation, shaft));
+    let found = event_spacing(x, fs, (1.0 / lead.frequency, shortest), rotation).map_err(|error| error.to_string())?;
+    let Some(EventSpacing { seconds, uncertainty, .. }) = found.filter(|found| found.clarity >= CLEAR) else {
+        let least = OUTLINE[1] * (mm(2.5 / fs).max(4e3 * shortest * speed) + 2e3 * way.insets[1]);
+        return Err(format!(
+            "no second event stands out beside the one of each pass: the damage is shorter than about {least:.1} mm, or its edges are not steep"
+        ));
+    };
+    let of = |k: usize, seconds: f64| OUTLINE[k] * (mm(seconds) + 2e3 * way.insets[k]);
+    let aside = NORMAL * uncertainty;
+    let longest = if seconds * lead.frequency > AMBIGUOUS { 1.0 / lead.frequency - seconds } else { seconds };
+    let interval = Interval { low: of(0, seconds - aside), high: of(2, longest + aside), freedom: MOST_FREEDOM };
+    Ok((of(1, seconds), interval))
+}
+
+/// A bearing by what lengths on its surfaces follow from.
+struct Bodies {
+    count: f64,
+    /// Pitch diameter, and the part of the elements' diameter that is across the axis, m.
+    pitch: f64,
+    across: f64,
+    diameter: f64,
+    /// What its contacts follow from.
+    scenario: Scenario,
+}
+
+impl Bodies {
+    /// Of the bearing that was asked about.
+    fn of(request: &Request, asked: Option<&Asked>, run: Option<&Loaded>) -> Result<Self, String> {
+        let unknown = || {
+            let what = ["rollers", "pitch", "diameter"].map(|name| request.called.name(name)).join(", ");
+            format!("the sizes of the bearing's elements are not known; give a bearing whose name has them, or {what}")
+        };
+        let elements = &request.elements;
+        let angle = elements.contact_angle.unwrap_or(0.0);
+        let text = match (asked, run) {
+            (Some(Asked::Scenario { bearing, .. }), _) => as_text(bearing),
+            (Some(Asked::Name(name)), _) => match KnownBearing::find(name).ok_or_else(unknown)? {
+                KnownBearing::Catalogue(entry) => format!("preset = {:?}", entry.name),
+                KnownBearing::DataSet(named) => {
+                    let of = named.measures.ok_or_else(unknown)?;
+                    let angle = elements.contact_angle.unwrap_or(of.contact_angle_deg);
+                    return Self::new(ball(named.elements, of.pitch_mm, of.diameter_mm), angle);
+                }
+            },
+            (None, Some(run)) if !elements.any() => as_text(&run.scenario.bearing),
+            _ => match *elements {
+                Elements { count: Some(count), pitch: Some(pitch), diameter: Some(diameter), .. } => {
+                    ball(count, pitch, diameter)
+                }
+                _ => return Err(unknown()),
+            },
+        };
+        Self::new(text, angle)
+    }
+
+    fn new(bearing: String, angle_deg: f64) -> Result<Self, String> {
+        let text = format!("[bearing]\n{bearing}\n[operation]\nspeed_rpm = 1000\nload_n = [0, -1]\n");
+        let scenario = document::read(&text, &[]).map_err(|problems| {
+            problems.first().map_or_else(String::new, |problem| format!("the bearing makes no contacts: {problem}"))
+        })?;
+        let (scenario, b) = (scenario.scenario.clone(), &scenario.scenario.bearing);
+        let [pitch, diameter] = [b.pitch_diameter_mm, b.roller_diameter_mm].map(|mm| 1e-3 * mm);
+        let across = diameter * angle_deg.to_radians().cos();
+        Ok(Self { count: b.rollers_per_row as f64, pitch, across, diameter, scenario })
+    }
+
+    fn way(mut self, component: Component) -> Result<Way, String> {
+        let (spacing, surface) = match component {
+            Component::OuterRace => (PI * (self.pitch + self.across) / self.count, Surface::OuterRaceway),
+            Component::InnerRace => (PI * (self.pitch - self.across) / self.count, Surface::InnerRaceway),
+            // It passes one race and the other in each turn.
+            _ => (0.5 * PI * self.diameter, Surface::Roller(1)),
+        };
+        let rating = static_rating(&self.scenario.bearing).load;
+        let mut insets = [0.0; 3];
+        for (inset_of, share) in insets.iter_mut().zip(LOADS) {
+            self.scenario.operation.load_n = [0.0, -share * rating];
+            *inset_of = inset(&self.scenario, surface).map_err(|error| error.to_string())?;
+        }
+        Ok(Way { spacing, insets })
+    }
+}
+
+/// A ball bearing of these diameters in mm, as a scenario file says it: what no more is said of is taken for one.
+fn ball(count: usize, pitch: f64, diameter: f64) -> String {
+    let (inner, outer) = (pitch - diameter, pitch + diameter);
+    format!(
+        "element = \"ball\"\nrollers_per_row = {count}\npitch_diameter_mm = {pitch}\nroller_diameter_mm = {diameter}\n\
+         inner_raceway_diameter_mm = {inner}\nouter_raceway_diameter_mm = {outer}"
+    )
+}
+
+/// The same of any bearing.
+fn as_text(b: &Bearing) -> String {
+    let own = ball(b.rollers_per_row, b.pitch_diameter_mm, b.roller_diameter_mm);
+    if b.has_balls() {
+        return own;
+    }
+    let length = format!("element = \"roller\"\nrows = {}\nroller_length_mm = {}", b.rows, b.roller_length_mm);
+    own.replace("element = \"ball\"", &length)
+}
