@@ -21,7 +21,7 @@ const LOADS: [f64; 3] = [0.02, 0.06, 0.2];
 /// An event is as short as this share of the way from the edge to it.
 const SHORTEST: f64 = 0.35;
 /// Clarity of a spacing below which none is told: of simulated damage, one in twenty is another spacing than that of its ends (`validation/size`).
-const CLEAR: f64 = 0.085;
+const CLEAR: f64 = 0.12;
 /// Events farther apart than this share of the elements' spacing may be those of damage that takes the rest of it: the interval holds both. Below, that would leave elements
 /// hardly any raceway.
 const AMBIGUOUS: f64 = 0.35;
