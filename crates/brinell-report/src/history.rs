@@ -28,7 +28,7 @@ impl Page {
         let count = |state: &str| of.snapshots.iter().filter(|s| s.state == state).count();
         let mut chapters = Vec::new();
         if of.snapshots.iter().any(|s| !s.outline_mm.is_empty()) {
-            let figure = Figure::still("outlines", OUTLINES, &history, |of, layout| outlines(of, layout));
+            let figure = Figure::still("outlines", OUTLINES, &history, outlines);
             chapters.push(Chapter::of("outlines", "Outlines", Piece::Figure(figure)));
             chapters.push(Chapter::new(
                 "size",

@@ -171,7 +171,7 @@ impl<'a> Run<'a> {
 
     /// Of a history: what the machine is at this run.
     pub(crate) fn snapshot(&self) -> Option<&Snapshot> {
-        self.draw.as_ref()?.snapshot.as_ref()
+        self.draw.as_ref()?.snapshot.as_deref()
     }
 
     /// Of pure rolling, at constant speed.

@@ -33,7 +33,7 @@ pub struct Draw {
     /// How often it was drawn before, because its values did not fit.
     pub redrawn: u64,
     /// Of a history: what the machine is at this run.
-    pub snapshot: Option<Snapshot>,
+    pub snapshot: Option<Box<Snapshot>>,
 }
 
 /// The runs of a plan. Places are those of runs, or of machines where each has a history: what is said of a run's place is
@@ -283,9 +283,8 @@ impl Draws {
     /// Puts the damage of that time in place of the damage at failure.
     fn grow(&self, history: &History, base: &str, run: usize, draw: &mut Draw) -> Result<(), Vec<Problem>> {
         let whole = read(base, &draw.settings)?.scenario;
-        let one = |problem| vec![problem];
-        let defect = only_defect(&whole).map_err(one)?;
-        let turning = Turning::of(&whole, self.slowest(draw.class)).map_err(one)?;
+        let defect = only_defect(&whole)?;
+        let turning = Turning::of(&whole, self.slowest(draw.class))?;
         let at = self.place_of(run);
         let drawn = self.values(at, draw.redrawn);
         let life = &drawn[self.classes[draw.class].life.clone()];
@@ -305,13 +304,13 @@ impl Draws {
                 !path.starts_with(&format!("{key}.0.shape")) && (has_damage || !path.starts_with(&key))
             });
             if has_damage {
-                let grown = snapshot.grown(history, (&whole, defect), &turning).map_err(one)?;
+                let grown = snapshot.grown(history, (&whole, defect), &turning)?;
                 draw.settings.extend(grown.into_iter().map(|(name, value)| (format!("{key}.0.{name}"), value)));
             } else {
                 draw.settings.push((key, "[]".to_owned()));
             }
         }
-        draw.snapshot = Some(snapshot);
+        draw.snapshot = Some(Box::new(snapshot));
         Ok(())
     }
 

@@ -61,7 +61,7 @@ fn made(draws: &Draws, base: &str, run: usize) -> (Scenario, Draw) {
 }
 
 fn snapshot(draws: &Draws, run: usize) -> Snapshot {
-    made(draws, BASE, run).1.snapshot.unwrap()
+    *made(draws, BASE, run).1.snapshot.unwrap()
 }
 
 #[test]

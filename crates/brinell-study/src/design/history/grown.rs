@@ -14,8 +14,8 @@ use std::f64::consts::TAU;
 const LEAST_TURNS: f64 = 8.0;
 
 /// The one defect of a machine that fails, from a scenario with all of its damage.
-pub(in crate::design) fn only_defect(scenario: &Scenario) -> Result<Option<&Defect>, Problem> {
-    let wrong = |message: String, allowed: &str| Err(Problem::error("defects", message).allowed(allowed));
+pub(in crate::design) fn only_defect(scenario: &Scenario) -> Result<Option<&Defect>, Vec<Problem>> {
+    let wrong = |message: String, allowed: &str| Err(vec![Problem::error("defects", message).allowed(allowed)]);
     match &scenario.defects[..] {
         [] => Ok(None),
         [one] if one.shape.file().is_some() => wrong(
@@ -46,8 +46,9 @@ pub(in crate::design) struct Turning {
 
 impl Turning {
     /// `slowest` is the least speed that the plan's snapshots draw, r/min, where they draw one.
-    pub(in crate::design) fn of(scenario: &Scenario, slowest: Option<f64>) -> Result<Self, Problem> {
-        let model = Model::new(&healthy(scenario)).map_err(|error| Problem::error("bearing", error.to_string()))?;
+    pub(in crate::design) fn of(scenario: &Scenario, slowest: Option<f64>) -> Result<Self, Vec<Problem>> {
+        let model =
+            Model::new(&healthy(scenario)).map_err(|error| vec![Problem::error("bearing", error.to_string())])?;
         let duration = scenario.simulation.duration_s;
         let (turns, at) = match slowest {
             Some(rpm) => (duration * rpm / 60.0, format!(" at the slowest speed, {rpm} r/min")),
@@ -66,7 +67,7 @@ impl Turning {
             ),
             false => format!("a shaft that turns: {LEAST_TURNS} turns a snapshot"),
         };
-        Err(Problem::error("simulation.duration_s", message).value(duration.to_string()).allowed(allowed))
+        Err(vec![Problem::error("simulation.duration_s", message).value(duration.to_string()).allowed(allowed)])
     }
 
     /// Whether rolling elements pass damage from its first s to its last.
@@ -86,23 +87,23 @@ impl Snapshot {
         history: &History,
         (scenario, all): (&Scenario, &Defect),
         turning: &Turning,
-    ) -> Result<Vec<(&'static str, String)>, Problem> {
+    ) -> Result<Vec<(&'static str, String)>, Vec<Problem>> {
         let shape = Shape::new(&all.shape, 1e-6 * all.depth_um);
         let Some(shape) = shape else {
-            return Err(Problem::error("defects", "the shape makes no sense"));
+            return Err(vec![Problem::error("defects", "the shape makes no sense")]);
         };
         let towards_plus = match (turning.is_towards_plus(all.on), history.edge) {
             (Some(towards), _) => towards,
             (None, Edge::Both) => true,
             (None, _) => {
                 let message = "the shaft turns both ways, so that damage has no trailing edge";
-                return Err(
-                    Problem::error("operation.speed_rpm", message).allowed("one sense, or history.edge = \"both\"")
-                );
+                return Err(vec![
+                    Problem::error("operation.speed_rpm", message).allowed("one sense, or history.edge = \"both\""),
+                ]);
             }
         };
         let Some(star) = Star::of(&polygons_mm(all, &shape, CORNERS), history.edge, towards_plus) else {
-            return Err(Problem::error("defects", "the shape has no length"));
+            return Err(vec![Problem::error("defects", "the shape has no length")]);
         };
         let widest = history.widest_mm.unwrap_or(f64::INFINITY).min(scenario.bearing.axial_reach_mm());
         let outline = star.grown(self.length_mm, self.fails_mm, widest, -all.axial_offset_mm);
