@@ -175,8 +175,38 @@ fn prop_a_page_shows_one_history() {
     ] {
         assert!(page.contains(part), "{part}");
     }
-    assert_eq!(page.matches("class=\"tile\"").count().max(2), 2);
+    assert_eq!(page.matches("<strong>run ").count(), 2, "signals of two snapshots");
     brinell(here, &["dataset", "sheet", "out", "--machine", "1"])
         .exits(2)
         .complains(&["no rows of machine 1; machines of this data set are 0 to 0"]);
+}
+
+#[test]
+fn prop_of_a_held_out_machine_no_row_tells_its_life() {
+    let held = format!("held_out = 0.5\nsecret = \"{}\"\n[history]", super::SECRET);
+    let plan = PLAN.replace("[split]\ntest = 0.3\n", "").replace("machines = 3", "machines = 4");
+    let folder =
+        folder_with(&plan.replace("[history]\n", &format!("{held}\n")).replace("snapshots = 4", "snapshots = 2"));
+    let here = folder.path();
+    make(here, &["-o", "out", "-q"]).exits(0);
+    let mut apart = Vec::new();
+    for k in 0.. {
+        let path = here.join(format!("out/runs/part-{k:05}.parquet"));
+        if !path.exists() {
+            break;
+        }
+        apart.extend(rows(&path).into_iter().filter(|row| text(row, "split").unwrap() == "held-out"));
+    }
+    assert!(!apart.is_empty() && apart.len() % 2 == 0, "whole machines: {}", apart.len());
+    for row in &apart {
+        assert!(whole(row, "machine") >= 0 && number(row, "time_h").is_some());
+        for truth in
+            ["state", "life_h", "remaining_life_h", "life_share", "censored", "damage_begins_h", "outline_s_mm"]
+        {
+            assert_eq!(*cell(row, truth), Field::Null, "{truth}");
+        }
+        for truth in ["revolutions", "load_cycles", "edge_pressure_mpa", "defect_length_mm", "history.rate"] {
+            assert_eq!(*cell(row, truth), Field::Null, "{truth}");
+        }
+    }
 }

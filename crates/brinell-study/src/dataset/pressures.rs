@@ -3,9 +3,10 @@
 use brinell::defect::{SIDES, Side, wrap};
 use brinell::half_space::pressure_over;
 use brinell::model::Model;
-use brinell::plausibility::observed;
+use brinell::plausibility::carried;
 use brinell::pressure::pressures;
 use brinell::scenario::{Law, Scenario, Surface};
+use brinell::simulate::Simulation;
 use brinell::statics::static_load_zone;
 
 /// Pressures of a snapshot, by the static balance of the sound bearing.
@@ -17,9 +18,14 @@ pub(crate) struct Pressures {
 }
 
 impl Pressures {
-    /// `damaged` is the run's model, with its damage.
-    pub(crate) fn of(scenario: &Scenario, damaged: &Model) -> Option<Self> {
-        let s = observed(scenario);
+    /// Of bearing `k` of a simulation, from 0, with its damage.
+    pub(crate) fn of(scenario: &Scenario, simulation: &Simulation, k: usize) -> Option<Self> {
+        let machine = simulation.machine();
+        let s = match &scenario.machine {
+            Some(_) => carried(scenario, machine, &machine.balance().ok()?).into_iter().nth(k)?.0,
+            None => scenario.clone(),
+        };
+        let damaged = &machine.bearings[k].model;
         let sound = Model::new(&Scenario { defects: Vec::new(), ..s.clone() }).ok()?;
         let zone = static_load_zone(&sound).ok()?;
         let edge = || {

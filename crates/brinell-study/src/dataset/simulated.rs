@@ -93,9 +93,10 @@ impl<'a> Run<'a> {
         }
         match end {
             End::Complete => {
-                if self.draws.plan().history.is_some() {
-                    self.pressures = self.damaged_model().and_then(|model| Pressures::of(self.scenario()?, model));
-                }
+                self.pressures = self.snapshot().and_then(|snapshot| {
+                    let (result, _) = self.ended.as_ref()?;
+                    Pressures::of(self.scenario()?, &result.simulation, snapshot.bearing)
+                });
                 Ok(())
             }
             End::Stopped => Err(Short::Stopped),
@@ -164,11 +165,6 @@ impl<'a> Run<'a> {
         self.ended.as_ref().map(|(result, _)| result.simulation.model())
     }
 
-    /// Model of a run that came to its end.
-    pub(crate) fn damaged_model(&self) -> Option<&Model> {
-        self.model().filter(|_| self.failed.is_none())
-    }
-
     /// Of a history: what the machine is at this run.
     pub(crate) fn snapshot(&self) -> Option<&Snapshot> {
         self.draw.as_ref()?.snapshot.as_deref()
@@ -199,7 +195,10 @@ impl<'a> Run<'a> {
     /// began (1).
     pub(crate) fn passes(&self, since: usize) -> Option<f64> {
         let snapshot = self.snapshot()?;
-        let each = TAU * self.damaged_model()?.kinematics(1.0).defect_frequency(snapshot.on?).1;
+        self.gathered()?;
+        let (result, _) = self.ended.as_ref()?;
+        let model = &result.simulation.machine().bearings[snapshot.bearing].model;
+        let each = TAU * model.kinematics(1.0).defect_frequency(snapshot.on?).1;
         Some((each * snapshot.turns?[since]).round())
     }
 

@@ -294,6 +294,7 @@ impl Draws {
             let speeds: Vec<f64> = (0..=at.1).map(|k| self.speed((at.0, k), draw).unwrap_or(rpm)).collect();
             snapshot.turns = Some(snapshot.turned(&speeds));
         }
+        snapshot.bearing = whole.machine.as_ref().map_or(0, |machine| machine.lead);
         if let Some(defect) = defect {
             let key = match &whole.machine {
                 Some(machine) => format!("bearing.{}.defects", machine.lead),

@@ -58,6 +58,8 @@ pub struct Snapshot {
     pub length_mm: f64,
     /// Damaged surface, sooner or later; `None` of a machine that stays healthy.
     pub on: Option<Surface>,
+    /// Which bearing it is of, from 0.
+    pub bearing: usize,
     /// Turns of the shaft since the machine was new, and since damage began; `None` where the speed varies within a
     /// snapshot.
     pub turns: Option<[f64; 2]>,
@@ -102,6 +104,7 @@ impl Snapshot {
             fails_mm,
             length_mm: rounded(length_mm, DIGITS),
             on,
+            bearing: 0,
             turns: None,
         }
     }
