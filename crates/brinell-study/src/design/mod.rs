@@ -25,7 +25,7 @@ mod turns;
 pub use distribution::{Distribution, Value};
 pub use drawn::Parameter;
 pub use draws::{Draw, Draws};
-pub use history::{Edge, History, Law, Snapshot, Star, State, Varied};
+pub use history::{Edge, History, Law, Snapshot, State, Varied};
 #[doc(hidden)]
 pub use kind::{FileKind, kind_of};
 pub use plan::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};

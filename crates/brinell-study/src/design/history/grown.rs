@@ -1,6 +1,7 @@
 //! The damage of a snapshot: the class's, in the size of that time.
 
-use super::{Edge, History, Snapshot, Star};
+use super::outline::Star;
+use super::{Edge, History, Snapshot};
 use brinell::defect::{Extent, Shape};
 use brinell::derived::Passing;
 use brinell::document::Problem;

@@ -15,7 +15,7 @@ use brinell::document::reading::Choice;
 
 pub(super) use grown::{Turning, only_defect};
 pub use law::Law;
-pub use outline::{Edge, Star};
+pub use outline::Edge;
 pub use snapshot::{Snapshot, State};
 pub use varied::Varied;
 

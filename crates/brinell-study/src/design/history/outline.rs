@@ -27,7 +27,7 @@ pub enum Edge {
 
 /// How far damage reaches in each direction from a point that stays; mm.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Star {
+pub(super) struct Star {
     /// The point, (s, z) in the frame of the shape.
     origin: [f64; 2],
     /// -1 where the edge that stays is the last one: rays count from there.
@@ -43,7 +43,7 @@ pub struct Star {
 impl Star {
     /// Of polygons. `edge` moves; `towards_plus` says whether rolling elements pass from the first s to the last. `None`
     /// where the polygons have no extent.
-    pub fn of(polygons: &[Vec<[f64; 2]>], edge: Edge, towards_plus: bool) -> Option<Self> {
+    pub(super) fn of(polygons: &[Vec<[f64; 2]>], edge: Edge, towards_plus: bool) -> Option<Self> {
         let is_inside = edge == Edge::Both;
         let sign = if is_inside || (edge == Edge::Trailing) == towards_plus { 1.0 } else { -1.0 };
         let turned = |p: &[f64; 2]| [sign * p[0], p[1]];
@@ -72,11 +72,6 @@ impl Star {
         (star.length > 0.0).then_some(star)
     }
 
-    /// Length along s, mm.
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-
     /// Corners seen from the point that stays, counted along s from the edge; `room` is what there is below and above it, mm.
     fn corners(&self, scale: f64, [below, above]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         self.rays.iter().map(move |(angle, reach)| {
@@ -101,7 +96,7 @@ impl Star {
     /// The outline of this length in the frame of the shape as it is at failure, where it has the length `fails` and lies
     /// about the shape's own middle; within `widest` about z = `middle` of that frame. The outline of a larger length holds that
     /// of a smaller one.
-    pub fn grown(&self, length: f64, fails: f64, widest: f64, middle: f64) -> Vec<[f64; 2]> {
+    pub(super) fn grown(&self, length: f64, fails: f64, widest: f64, middle: f64) -> Vec<[f64; 2]> {
         let end = fails / self.length;
         let z = || self.corners(end, [f64::INFINITY; 2]).map(|corner| corner[1]);
         let width = z().fold(0.0, f64::max) - z().fold(0.0, f64::min);
