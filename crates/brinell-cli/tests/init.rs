@@ -4,7 +4,10 @@ use crate::common::{brinell, csv, files, typed};
 use std::fs;
 use tempfile::tempdir;
 
-const TEMPLATES: [&str; 8] = ["outer-spall", "inner-spall", "photo", "scan", "run-up", "measured", "data-set", "ball"];
+const TEMPLATES: [&str; 9] =
+    ["outer-spall", "inner-spall", "photo", "scan", "run-up", "measured", "data-set", "histories", "ball"];
+/// Those that are plans.
+const PLANS: [&str; 2] = ["data-set", "histories"];
 
 #[test]
 fn prop_every_template_passes_check_with_bearings_of_every_kind() {
@@ -18,7 +21,7 @@ fn prop_every_template_passes_check_with_bearings_of_every_kind() {
             let args = ["init", "s.toml", "--template", template, "--bearing", bearing];
             brinell(here, &args).exits(0).keeps_quiet();
             let text = fs::read_to_string(here.join("s.toml")).unwrap();
-            let call = if template == "data-set" {
+            let call = if PLANS.contains(&template) {
                 brinell(here, &["check", "s-base.toml"]).exits(0).keeps_quiet();
                 brinell(here, &["dataset", "s.toml", "--dry-run"]).exits(0)
             } else {
@@ -36,7 +39,7 @@ fn prop_every_template_passes_check_with_bearings_of_every_kind() {
             // small bearing is felt by its support.
             let of_draws = |line: &&&str| {
                 let drawn = ["feels the floor", "at rest the support carries"];
-                template == "data-set" && drawn.iter().any(|words| line.contains(words))
+                PLANS.contains(&template) && drawn.iter().any(|words| line.contains(words))
             };
             let others = remarks.iter().filter(|line| !of_files(line) && !of_draws(line)).count();
             assert_eq!(others, 0, "{template}, {bearing}: {}", call.err);
@@ -58,10 +61,13 @@ fn prop_every_template_runs() {
         let here = folder.path();
         brinell(here, &["init", "s.toml", "--template", template]).exits(0);
         // A shorter run than the template's: that it runs, and leaves numbers.
-        if template == "data-set" {
+        if PLANS.contains(&template) {
             let plan = fs::read_to_string(here.join("s.toml")).unwrap();
             let short = plan
                 .replace("runs = 60", "runs = 3")
+                .replace("machines = 3", "machines = 1")
+                .replace("snapshots = 12", "snapshots = 2")
+                .replace("simulation.duration_s = 1.0", "simulation.duration_s = 0.6")
                 .replace("simulation.duration_s = 0.5", "simulation.duration_s = 0.2");
             fs::write(here.join("s.toml"), short).unwrap();
             brinell(here, &["dataset", "s.toml", "-o", "o", "-q"]).exits(0);

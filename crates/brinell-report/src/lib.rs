@@ -29,6 +29,7 @@ mod encode;
 mod fact;
 mod font;
 mod frame;
+mod history;
 mod kurtogram;
 mod layout;
 mod load;

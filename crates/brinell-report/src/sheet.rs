@@ -44,7 +44,7 @@ impl Page {
 const PICTURES: &str = "Left the end of the signal, right the spectrum of its envelope in a band; every picture has a scale of its own. Marks: the frequency of the run's damage in pure rolling, and its multiples. \
     Runs that failed, and runs whose labels are held out, are not shown.";
 
-fn tile(sheet: &Arc<Sheet>, run: &SheetRun) -> Piece {
+pub(crate) fn tile(sheet: &Arc<Sheet>, run: &SheetRun) -> Piece {
     let of = Arc::new((Arc::clone(sheet), run.clone()));
     let id = |what: &str| format!("run{}-{what}", run.run);
     let figures = vec![

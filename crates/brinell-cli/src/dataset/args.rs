@@ -31,6 +31,8 @@ use std::path::PathBuf;
     Distributions: uniform = [LOW, HIGH], log = [LOW, HIGH], normal = [MEAN, DEVIATION] (with within or clip = [LOW, HIGH]), whole = [LEAST, \
     LARGEST], choice = [...] (with weights = [...]), grid = [...] or \"FROM:TO:STEP\". Grids are crossed. Random spalls get a seed of their own in \
     each run.\n\n\
+    With machines, snapshots and a table [history] in place of runs, each machine has a history: healthy, damaged, failed. `brinell init \
+    plan.toml --template histories` writes one.\n\n\
     In the folder:\n  \
     runs/part-00000.parquet    one row a run: signals, parameters, labels, ground truth, solver's work\n  \
     dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
@@ -48,7 +50,8 @@ use std::path::PathBuf;
     brinell dataset plan.toml -o data --shard 3/10\n  \
     brinell dataset merge data-1 data-2 data-3 -o data\n  \
     brinell dataset verify data\n  \
-    brinell dataset sheet data"
+    brinell dataset sheet data\n  \
+    brinell dataset sheet data --machine 0     one history to failure"
 )]
 pub(crate) struct DatasetArgs {
     #[command(subcommand)]
@@ -107,9 +110,12 @@ pub(crate) struct MergeArgs {
 pub(crate) struct SheetArgs {
     /// The data set's folder
     pub(crate) folder: PathBuf,
-    /// Runs of each class at most
+    /// Runs of each class at most; with --machine signals of so many snapshots
     #[arg(long, value_name = "N", default_value = "4")]
     pub(crate) runs: NonZeroUsize,
+    /// The history of this machine, numbers from 0: machine-K.html with outlines, size, indicators and signals over its life
+    #[arg(long, value_name = "K")]
+    pub(crate) machine: Option<usize>,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -7,7 +7,7 @@ use brinell::document::on_one_line;
 use brinell::signal::objects;
 use brinell_study::campaign::Misses;
 use brinell_study::dataset::Campaign;
-use brinell_study::design::{OutOfRange, Part, Survey};
+use brinell_study::design::{History, OutOfRange, Part, Survey};
 use brinell_study::runner::mean_pace;
 use std::num::NonZeroUsize;
 
@@ -33,8 +33,14 @@ pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
         plan.design.word(),
         plan.seed
     );
+    if let Some(history) = &plan.history {
+        tell_history(history);
+    }
     for (label, class) in plan.classes.iter().enumerate() {
-        say!("  {label} {}: {}", class.name, plural(draws.runs_of(label), "run"));
+        let runs = draws.runs_of(label);
+        let machines =
+            plan.history.as_ref().map_or(String::new(), |h| format!("{}, ", plural(runs / h.snapshots, "machine")));
+        say!("  {label} {}: {machines}{}", class.name, plural(runs, "run"));
     }
     tell_splits(campaign);
     let names: Vec<&str> = draws.parameters().iter().map(|p| p.key.as_str()).collect();
@@ -68,6 +74,26 @@ pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
     );
 }
 
+/// Machines, and how their damage grows.
+fn tell_history(history: &History) {
+    say!(
+        "  {} of {}, observed until {} of the life",
+        plural(history.machines, "machine"),
+        plural(history.snapshots, "snapshot"),
+        history.observed
+    );
+    say!(
+        "  assumed: {} with {} = {}, scatter {}; from {} mm to {} mm, where a machine counts as failed",
+        history.law.word(),
+        history.law.parameter(),
+        history.steepness,
+        history.scatter,
+        history.begins_mm,
+        history.fails_mm
+    );
+    say!("  damage begins at {} of the life, which is {} h", history.begins_at, history.life_h);
+}
+
 /// Runs of each class by split, where the runs are divided.
 pub(super) fn tell_splits(campaign: &Campaign) {
     let (classes, splits) = (&campaign.plan().classes, campaign.draws().splits());
@@ -99,7 +125,8 @@ fn fate(out_of_range: OutOfRange) -> &'static str {
 objects! {
     /// A data set before it runs.
     Planned {
-        name: String, runs: usize, files: usize, design: &'static str, seed: u64, classes: Vec<Class>,
+        name: String, runs: usize, machines: Option<usize>, history: Option<String>, files: usize, design: &'static str, seed: u64,
+        classes: Vec<Class>,
         splits: Vec<Split>, varies: Vec<String>, signals: Vec<String>, held_out_runs: usize, survey: Looked,
         bytes: f64, shard: Cost, warnings: Vec<String>,
     }
@@ -122,6 +149,8 @@ pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
     Planned {
         name: plan.name.clone(),
         runs: draws.runs(),
+        machines: plan.history.as_ref().map(|history| history.machines),
+        history: plan.history.as_ref().map(History::assumptions),
         files: campaign.parts(),
         design: plan.design.word(),
         seed: plan.seed,

@@ -61,6 +61,8 @@ enum Template {
     Measured,
     /// The plan of a data set, with its scenario
     DataSet,
+    /// The plan of histories to failure, with its scenario
+    Histories,
     /// A deep groove ball bearing
     Ball,
     /// A shaft on two bearings, each in a housing of its own: a fan
@@ -79,6 +81,7 @@ impl Template {
             Self::RunUp => include_str!("run-up.toml"),
             Self::Measured => include_str!("measured.toml"),
             Self::DataSet => include_str!("data-set.toml"),
+            Self::Histories => include_str!("histories.toml"),
             Self::Ball => include_str!("ball.toml"),
             Self::Machine => include_str!("machine.toml"),
             Self::Motor => include_str!("motor.toml"),
@@ -87,6 +90,11 @@ impl Template {
 
     fn is_of_machine(self) -> bool {
         matches!(self, Self::Machine | Self::Motor)
+    }
+
+    /// Whether it is the plan of a data set, with a base scenario beside it.
+    fn is_plan(self) -> bool {
+        matches!(self, Self::DataSet | Self::Histories)
     }
 
     fn word(self) -> String {
@@ -129,7 +137,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     }
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let Some(file) = args.file() else {
-        if template == Template::DataSet || !template.examples().is_empty() {
+        if template.is_plan() || !template.examples().is_empty() {
             return Err(Failure::Usage(format!(
                 "--template {} writes files beside the scenario: give the scenario's name, for instance {0}.toml",
                 template.word()
@@ -151,17 +159,14 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         };
         files.push((beside(name), bytes));
     }
-    if template == Template::DataSet {
+    if template.is_plan() {
         let base = filled(include_str!("base.toml"), &names, &bearing);
         files.push((beside(&names.base), base.into()));
     }
     // Last the one that names the others.
     files.push((file.clone(), text.into()));
     write(&files, args.force)?;
-    let next = match template {
-        Template::DataSet => "brinell dataset",
-        _ => "brinell run",
-    };
+    let next = if template.is_plan() { "brinell dataset" } else { "brinell run" };
     for (beside, _) in &files[1..files.len() - 1] {
         say!("wrote {}", beside.display());
     }
@@ -201,8 +206,9 @@ fn is_schema(path: &Path) -> bool {
 
 /// The template with every key in it.
 fn full(template: Template, text: &str) -> Result<String, Failure> {
-    if template == Template::DataSet {
-        return Err(Failure::Usage("--full is about scenarios; --template data-set writes a plan".into()));
+    if template.is_plan() {
+        let word = template.word();
+        return Err(Failure::Usage(format!("--full is about scenarios; --template {word} writes a plan")));
     }
     let head = text.lines().next().unwrap_or_default();
     let explained = brinell::document::explained(text).map_err(|problems| Failure::Scenario {

@@ -3,6 +3,7 @@
 
 mod bytes;
 mod heed;
+mod histories;
 mod refusals;
 mod rows;
 

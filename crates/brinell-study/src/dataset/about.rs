@@ -21,6 +21,8 @@ pub(crate) struct About {
     pub(crate) splits: Vec<Split>,
     pub(crate) classes: Vec<Class>,
     pub(crate) design: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) histories: Option<Histories>,
     pub(crate) rate: Rate,
     pub(crate) units: String,
     pub(crate) frame: String,
@@ -154,6 +156,16 @@ pub(crate) struct Class {
     pub(crate) open_runs: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) runs: Option<usize>,
+}
+
+/// Machines that run to failure, and what of it is assumed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Histories {
+    pub(crate) machines: u64,
+    pub(crate) snapshots: u64,
+    pub(crate) assumed: String,
+    /// Columns that no model may be given.
+    pub(crate) truth: Vec<String>,
 }
 
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -66,7 +66,7 @@ struct Files {
 
 impl Files {
     fn new(draws: &Draws) -> Self {
-        let each = draws.plan().runs_per_file;
+        let each = draws.plan().rows_per_file();
         let (mut runs, mut files) = (Vec::with_capacity(draws.runs()), Vec::new());
         for part in Part::ALL {
             let mut from = runs.len();

@@ -2,7 +2,7 @@
 //! that read MLCommons' Croissant.
 
 use crate::campaign::digest;
-use crate::dataset::about::{About, ColumnOf, Facts, Runs, Split, Sum};
+use crate::dataset::about::{About, ColumnOf, Facts, Histories, Runs, Split, Sum};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
 use crate::dataset::tally::Tally;
@@ -68,8 +68,10 @@ fn runs(about: &About) -> (u64, u64) {
 }
 
 fn description(about: &About) -> String {
+    let of =
+        about.histories.as_ref().map_or(String::new(), |h| format!(", {} machines that run to failure", h.machines));
     format!(
-        "Vibration signals of {} runs of rolling bearings, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
+        "Vibration signals of {} runs of rolling bearings{of}, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
          with labels and ground truth.",
         runs(about).0,
         about.brinell
@@ -143,10 +145,28 @@ fn card(about: &About) -> String {
          geometry, and what was assumed.\n\n```python\nfrom datasets import load_dataset\nruns = load_dataset(\"path/to/this/folder\")\n```\n",
         signals.join(", ")
     );
+    if let Some(histories) = &about.histories {
+        card += &life(histories);
+    }
     if about.splits.iter().any(|split| split.name == Part::HeldOut.word()) {
         card += "\nThe labels of the split `held_out` are not published. Its runs have signals, speed and load.\n";
     }
     card
+}
+
+/// What is assumed of machines that run to failure, and what may not be given to a model.
+fn life(histories: &Histories) -> String {
+    let truth: Vec<String> = histories.truth.iter().map(|name| format!("`{name}`")).collect();
+    format!(
+        "\n## Histories\n\nEach of the {} machines has {} rows, its life in snapshots: `machine`, `snapshot`, `time_h`. A machine is healthy, is damaged, and \
+         counts as failed when its damage has a stated length; nothing else fails. A machine belongs to one split as a whole.\n\n**How damage grows is an \
+         assumption, and no prediction**: {}. What a model learns of the remaining life is this law, and no bearing's.\n\nColumns that no test rig tells, \
+         and that no model may be given: {}. Of `time_h` give it those up to the row's own: the last time of a machine that is run to failure is its life.\n",
+        histories.machines,
+        histories.snapshots,
+        histories.assumed,
+        truth.join(", ")
+    )
 }
 
 /// The data set as JSON-LD, by the Croissant format specification 1.0 (MLCommons, 2024).

@@ -26,6 +26,7 @@ pub struct DataColumn {
 /// What a column's cells are read from; a cell is empty where there is nothing to read.
 #[derive(Debug, Clone, Copy)]
 enum Source {
+    Flag(fn(&Run) -> Option<bool>),
     Whole(fn(&Run) -> Option<usize>),
     Number(fn(&Run) -> Option<f64>),
     Words(fn(&Run) -> Option<String>),
@@ -39,11 +40,12 @@ enum Source {
     Parameter(usize, Kind),
 }
 
-use Source::{Count, Number, Numbers, Slip, Sum, Whole, Wholes, Words, WordsList};
+use Source::{Count, Flag, Number, Numbers, Slip, Sum, Whole, Wholes, Words, WordsList};
 
 impl Source {
     fn kind(&self) -> Kind {
         match self {
+            Flag(_) => Kind::Flag,
             Whole(_) | Count(_) => Kind::Whole,
             Number(_) | Sum(_) => Kind::Number,
             Words(_) => Kind::Words,
@@ -69,6 +71,7 @@ impl DataColumn {
     pub(crate) fn cell(&self, run: &mut Run) -> Cell {
         let wholes = |x: Vec<usize>| Cell::Wholes(x.into_iter().map(|x| x as i64).collect());
         let cell = match &self.source {
+            Flag(of) => of(run).map(Cell::Flag),
             Whole(of) => of(run).map(|x| Cell::Whole(x as i64)),
             Number(of) => Some(Cell::number(of(run))),
             Words(of) => of(run).map(Cell::Words),
@@ -238,9 +241,38 @@ const TRUTH: [Fixed; 55] = [
         Words(|r| r.scenario().map(fingerprint))),
 ];
 
-/// Whether a key is one of damage, of one bearing or of one of a machine's.
+/// What a snapshot of a machine's life has beside: which one it is, and the truth of that life.
+#[rustfmt::skip]
+const OF_HISTORIES: [(Fixed, bool); 18] = [
+    (("machine", "1", "number of the machine, from 0: its rows are its life", Whole(|r| Some(r.snapshot()?.machine))), false),
+    (("snapshot", "1", "number of the snapshot of this machine, from 0", Whole(|r| Some(r.snapshot()?.number))), false),
+    (("time_h", "h", "running time since the machine was new. Of a machine that is run to failure its last one is the life: to a model give times up to the row's own",
+        Number(|r| Some(r.snapshot()?.time_h))), false),
+    (("state", "1", "healthy, damaged or failed: damage has the length of failure", Words(|r| Some(r.snapshot()?.state().word().into()))), true),
+    (("life_share", "1", "share of the life that is over; none of a machine that stays healthy", Number(|r| r.snapshot()?.share())), true),
+    (("life_h", "h", "running time until failure, which is by the size of damage alone", Number(|r| r.snapshot()?.life())), true),
+    (("remaining_life_h", "h", "running time from this snapshot until failure", Number(|r| r.snapshot()?.remaining())), true),
+    (("censored", "1", "whether the machine's failure is not among its snapshots", Flag(|r| Some(r.snapshot()?.is_censored()))), true),
+    (("damage_begins_h", "h", "running time at which damage begins", Number(|r| r.snapshot()?.begins())), true),
+    (("damage_fails_mm", "mm", "length of damage at which the machine counts as failed", Number(|r| r.snapshot()?.fails())), true),
+    (("outline_s_mm", "mm", "corners of the damage seen from above: s, counter-clockwise along the surface from `defect_center_deg`, which stays; empty without damage",
+        Numbers(|r| r.outline(0))), true),
+    (("outline_z_mm", "mm", "the same: z, along the axis", Numbers(|r| r.outline(1))), true),
+    (("revolutions", "1", "turns of the shaft since the machine was new; each snapshot's speed holds from the one before it",
+        Number(|r| r.snapshot()?.turns.map(|turns| turns[0].round()))), true),
+    (("load_cycles", "1", "passes of rolling elements over the place of the damage since the machine was new, in pure rolling; of turning damage also those outside the load zone",
+        Number(|r| r.passes(0))), true),
+    (("load_cycles_damaged", "1", "the same since damage began", Number(|r| r.passes(1))), true),
+    (("sound_pressure_mpa", "MPa", "largest Hertz pressure of the sound contact under the heaviest rolling element, on the inner and the outer raceway, by the static balance",
+        Numbers(|r| Some(r.pressures.as_ref()?.sound.map(|p| 1e-6 * p).to_vec()))), true),
+    (("edge_pressure_mpa", "MPa", "largest pressure over the damage as a rolling element passes with the sound contact's static deformation there (half-space, elastic,         edges rounded over contact.edge_radius_um): it grows as cells shrink, so compare it between snapshots",
+        Number(|r| Some(1e-6 * r.pressures.as_ref()?.edge?.0))), true),
+    (("edge_pressure_at_mm", "mm", "its place [s, z]", Numbers(|r| Some(r.pressures.as_ref()?.edge?.1.map(|x| 1e3 * x).to_vec()))), true),
+];
+
+/// Whether a key is one of damage, of one bearing or of one of a machine's, or of how it grows.
 pub(crate) fn is_of_damage(key: &str) -> bool {
-    key.starts_with("defects") || key.starts_with("bearing.") && key.contains(".defects")
+    key.starts_with("defects") || key.starts_with("history.") || key.starts_with("bearing.") && key.contains(".defects")
 }
 
 fn extent(defect: &Defect) -> Extent {
@@ -283,9 +315,16 @@ pub(crate) fn columns(draws: &Draws, signals: &[Column], is_machine: bool) -> Ve
         // What only some classes draw, or what is drawn for damage, tells the class.
         let tells = !parameter.common || is_of_damage(&parameter.key);
         let source = Source::Parameter(k, kind);
-        DataColumn::new(&parameter.key, unit, "drawn: key of the scenario", tells, source)
+        let meaning = match (parameter.key.starts_with("history."), parameter.anew) {
+            (true, _) => "drawn for each machine: key of the plan",
+            (_, true) => "drawn at each snapshot: key of the scenario",
+            _ => "drawn: key of the scenario",
+        };
+        DataColumn::new(&parameter.key, unit, meaning, tells, source)
     });
     let truth = TRUTH.iter().map(|c| fixed(c, true));
     let of_machines = OF_MACHINES.iter().filter(|_| is_machine).map(|(c, tells)| fixed(c, *tells));
-    head.chain(signals).chain(known).chain(parameters).chain(truth).chain(of_machines).collect()
+    let has_histories = draws.plan().history.is_some();
+    let of_histories = OF_HISTORIES.iter().filter(|_| has_histories).map(|(c, tells)| fixed(c, *tells));
+    head.chain(signals).chain(known).chain(parameters).chain(truth).chain(of_machines).chain(of_histories).collect()
 }

@@ -1,6 +1,6 @@
 //! A few runs of each class to look at: what the contact sheet shows.
 
-use crate::dataset::about::Class;
+use crate::dataset::about::{About, Class};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::Folder;
 use brinell::channel::SENSOR;
@@ -61,6 +61,8 @@ pub struct SheetRun {
     pub analysed_from_s: f64,
     /// RMS of the signal less its mean, from `analysed_from_s` on.
     pub rms: f64,
+    /// Kurtosis of the same: 3 of Gaussian noise.
+    pub kurtosis: f64,
     /// Time of the first sample of `stretch`, s.
     pub from_s: f64,
     /// Sample interval, s.
@@ -107,49 +109,71 @@ struct Place {
 /// # Errors
 /// Where there is no data set, or it cannot be read.
 pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetError> {
-    let folder = Folder::new(folder.as_ref());
-    let about = match folder.described()? {
-        Some((about, _)) => about,
-        None => folder.about()?.ok_or_else(|| folder.no_data_set())?,
-    };
-    let parts = folder.parts_there()?;
-    if parts.is_empty() {
-        return Err(DatasetError::Refused(format!(
-            "{}: no file of runs is there (runs/part-*.parquet)",
-            folder.root.display()
-        )));
-    }
-    let places = places(&parts)?;
-    let along = along_the_load(&parts, &places)?;
-    let signals = || about.columns.iter().filter(|c| c.is_signal());
-    let Some(signal) = signals().find(|c| c.name == along).or_else(|| signals().next()) else {
-        let message = format!("{}: no column is a signal", folder.root.display());
-        return Err(DatasetError::Refused(message));
-    };
-    let name = signal.name.clone();
+    let opened = Opened::new(folder.as_ref())?;
     let class =
         |(label, class): (usize, &Class)| SheetClass { name: class.name.clone(), label, ..SheetClass::default() };
-    let mut classes: Vec<SheetClass> = about.classes.iter().enumerate().map(class).collect();
+    let mut classes: Vec<SheetClass> = opened.about.classes.iter().enumerate().map(class).collect();
     let mut chosen = BTreeSet::new();
     for class in &mut classes {
-        let of_class = places.iter().filter(|place| place.label == class.label);
+        let of_class = opened.places.iter().filter(|place| place.label == class.label);
         let of_class: Vec<&Place> = of_class.collect();
         class.runs = of_class.len();
         let spread = spread(of_class.len(), each).map(|k| (of_class[k].part, of_class[k].row));
         chosen.extend(spread);
     }
-    let columns: Vec<&str> = COLUMNS.split(' ').chain([&*name]).collect();
-    for (part, path) in parts.iter().enumerate() {
+    let columns: Vec<&str> = opened.columns().collect();
+    for (part, path) in opened.parts.iter().enumerate() {
         let is_chosen = |row: usize| chosen.contains(&(part, row));
         for cells in read_records(path, &columns, is_chosen)? {
-            let (label, run) = run_of(&columns.iter().copied().zip(cells).collect(), &name);
+            let (label, run) = run_of(&columns.iter().copied().zip(cells).collect(), &opened.signal);
             if let Some(class) = classes.get_mut(label) {
                 class.shown.push(run);
             }
         }
     }
-    let unit = signal.unit.clone();
-    Ok(Sheet { name: about.name, version: about.brinell, signal: name, unit, classes })
+    let Opened { about, signal, unit, .. } = opened;
+    Ok(Sheet { name: about.name, version: about.brinell, signal, unit, classes })
+}
+
+/// A data set whose files are read, and the signal that is shown of it.
+pub(super) struct Opened {
+    pub(super) folder: Folder,
+    pub(super) about: About,
+    pub(super) parts: Vec<PathBuf>,
+    places: Vec<Place>,
+    pub(super) signal: String,
+    pub(super) unit: String,
+}
+
+impl Opened {
+    pub(super) fn new(folder: &Path) -> Result<Self, DatasetError> {
+        let folder = Folder::new(folder);
+        let about = match folder.described()? {
+            Some((about, _)) => about,
+            None => folder.about()?.ok_or_else(|| folder.no_data_set())?,
+        };
+        let parts = folder.parts_there()?;
+        if parts.is_empty() {
+            return Err(DatasetError::Refused(format!(
+                "{}: no file of runs is there (runs/part-*.parquet)",
+                folder.root.display()
+            )));
+        }
+        let places = places(&parts)?;
+        let along = along_the_load(&parts, &places)?;
+        let signals = || about.columns.iter().filter(|c| c.is_signal());
+        let Some(signal) = signals().find(|c| c.name == along).or_else(|| signals().next()) else {
+            let message = format!("{}: no column is a signal", folder.root.display());
+            return Err(DatasetError::Refused(message));
+        };
+        let (signal, unit) = (signal.name.clone(), signal.unit.clone());
+        Ok(Self { folder, about, parts, places, signal, unit })
+    }
+
+    /// What is read of a run.
+    pub(super) fn columns(&self) -> impl Iterator<Item = &str> {
+        COLUMNS.split(' ').chain([&*self.signal])
+    }
 }
 
 fn places(parts: &[PathBuf]) -> Result<Vec<Place>, DatasetError> {
@@ -181,7 +205,7 @@ fn along_the_load(parts: &[PathBuf], places: &[Place]) -> Result<&'static str, D
 }
 
 /// At most `each` of `count` places, the first and the last among them.
-fn spread(count: usize, each: usize) -> impl Iterator<Item = usize> {
+pub(super) fn spread(count: usize, each: usize) -> impl Iterator<Item = usize> {
     let shown = each.min(count);
     (0..shown).map(move |k| match shown {
         1 => 0,
@@ -193,20 +217,38 @@ fn spread(count: usize, each: usize) -> impl Iterator<Item = usize> {
 const COLUMNS: &str = "label run split speed_rpm load_n sample_rate_hz bpfo_hz bpfi_hz bsf_hz defect_on defect_center_deg \
                        defect_length_mm defect_width_mm defect_depth_um defect_frequency_hz analysed_from_s";
 
+/// A number of a row.
+pub(super) fn number(cells: &HashMap<&str, Cell>, name: &str) -> Option<f64> {
+    match cells[name] {
+        Cell::Number(x) => Some(x),
+        _ => None,
+    }
+}
+
+/// Numbers of a row; none where there is no list.
+pub(super) fn numbers<'a>(cells: &'a HashMap<&str, Cell>, name: &str) -> &'a [f64] {
+    match &cells[name] {
+        Cell::Numbers(x) => x.as_slice(),
+        _ => &[],
+    }
+}
+
+/// Words of a row.
+pub(super) fn words(cells: &HashMap<&str, Cell>, name: &str) -> String {
+    match &cells[name] {
+        Cell::Words(words) => words.clone(),
+        _ => String::new(),
+    }
+}
+
 /// A run from its cells, and its label.
-fn run_of(cells: &HashMap<&str, Cell>, signal: &str) -> (usize, SheetRun) {
+pub(super) fn run_of(cells: &HashMap<&str, Cell>, signal: &str) -> (usize, SheetRun) {
     let whole = |name: &str| match cells[name] {
         Cell::Whole(x) => x,
         _ => -1,
     };
-    let number = |name: &str| match cells[name] {
-        Cell::Number(x) => Some(x),
-        _ => None,
-    };
-    let numbers = |name: &str| match &cells[name] {
-        Cell::Numbers(x) => x.as_slice(),
-        _ => &[],
-    };
+    let number = |name: &str| number(cells, name);
+    let numbers = |name: &str| numbers(cells, name);
     let on: &[String] = match &cells["defect_on"] {
         Cell::WordsList(words) => words,
         _ => &[],
@@ -226,15 +268,13 @@ fn run_of(cells: &HashMap<&str, Cell>, signal: &str) -> (usize, SheetRun) {
     let highest = raceways.into_iter().flatten().fold(0.0, f64::max);
     let mut run = SheetRun {
         run: whole("run"),
-        split: match &cells["split"] {
-            Cell::Words(word) => word.clone(),
-            _ => String::new(),
-        },
+        split: words(cells, "split"),
         speed_rpm: number("speed_rpm"),
         load_n: numbers("load_n").to_vec(),
         defects: defects.collect(),
         analysed_from_s: number("analysed_from_s").unwrap_or(0.0),
         rms: f64::NAN,
+        kurtosis: f64::NAN,
         dt_s: number("sample_rate_hz").map_or(f64::NAN, |rate| 1.0 / rate),
         df_hz: f64::NAN,
         top_hz: 4.5 * highest,
@@ -261,6 +301,8 @@ impl SheetRun {
         let mean = settled.iter().sum::<f64>() / settled.len() as f64;
         let square = settled.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
         self.rms = (square / settled.len() as f64).sqrt();
+        let fourth = settled.iter().map(|x| (x - mean).powi(4)).sum::<f64>();
+        self.kurtosis = fourth * settled.len() as f64 / (square * square);
         let band = envelope_band_above(highest, rate);
         self.band_hz = (band.low, band.high);
         if let Ok(found) = envelope_spectrum(settled, rate, band, &Segments::of(settled.len())) {

@@ -2,7 +2,7 @@
 
 use crate::campaign::{digest, in_json, kernel};
 use crate::dataset::about::{
-    About, Class, ColumnOf, Facts, Files, Geometry, GeometryKey, Held, Rate, Runs, Sources, Split, Sum,
+    About, Class, ColumnOf, Facts, Files, Geometry, GeometryKey, Held, Histories, Rate, Runs, Sources, Split, Sum,
 };
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
@@ -73,11 +73,17 @@ fn about(campaign: &Campaign) -> About {
         kernel: Some(kernel().into()),
         licence: (!plan.licence.is_empty()).then(|| plan.licence.clone()),
         runs: Runs::Planned(draws.runs() as u64),
-        runs_per_file: plan.runs_per_file as u64,
+        runs_per_file: plan.rows_per_file() as u64,
         files: Files::Planned(campaign.parts()),
         splits: splits(campaign),
         classes: plan.classes.iter().enumerate().map(class).collect(),
         design: plan.design.word().into(),
+        histories: plan.history.as_ref().map(|history| Histories {
+            machines: history.machines as u64,
+            snapshots: history.snapshots as u64,
+            assumed: history.assumptions(),
+            truth: campaign.columns().iter().filter(|c| c.tells).map(|c| c.record.column.name.clone()).collect(),
+        }),
         rate: Rate {
             sample_rate_hz: constant("simulation.sample_rate_hz", simulation.sample_rate_hz),
             duration_s: constant("simulation.duration_s", simulation.duration_s),

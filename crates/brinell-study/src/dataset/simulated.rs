@@ -1,8 +1,9 @@
 //! One run, simulated as far as it can be: what the cells of its row are read from.
 
 use crate::campaign::settings_json;
+use crate::dataset::pressures::Pressures;
 use crate::dataset::truth::{Instant, Truth};
-use crate::design::{Draw, Draws, Value, unsaid};
+use crate::design::{Draw, Draws, Snapshot, Value, unsaid};
 use crate::listener::Listener;
 use crate::runner::observed;
 use brinell::bearing::kinematics::Kinematics;
@@ -20,6 +21,7 @@ use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::Column;
 use serde_json::Value as Json;
+use std::f64::consts::TAU;
 
 /// What a run's cells are read from, as far as it came.
 pub(crate) struct Run<'a> {
@@ -29,6 +31,8 @@ pub(crate) struct Run<'a> {
     pub(crate) loaded: Option<Loaded>,
     /// The run with its outcome and findings, and what was recorded.
     ended: Option<(RunResult, Truth)>,
+    /// Of a snapshot of a machine's life.
+    pub(crate) pressures: Option<Pressures>,
     /// Why it failed.
     pub(crate) failed: Option<String>,
 }
@@ -44,7 +48,7 @@ pub(crate) enum Short {
 impl<'a> Run<'a> {
     /// Before it begins.
     pub(crate) fn new(draws: &'a Draws, index: usize) -> Self {
-        Self { draws, index, draw: None, loaded: None, ended: None, failed: None }
+        Self { draws, index, draw: None, loaded: None, ended: None, pressures: None, failed: None }
     }
 
     /// Simulates its scenario, every channel of which must be among the signals.
@@ -88,7 +92,13 @@ impl<'a> Run<'a> {
             return Err(Short::Failed(format!("{name} reaches {value:.1e}, more than the files' 32-bit floats hold")));
         }
         match end {
-            End::Complete => Ok(()),
+            End::Complete => {
+                self.pressures = self.snapshot().and_then(|snapshot| {
+                    let (result, _) = self.ended.as_ref()?;
+                    Pressures::of(self.scenario()?, &result.simulation, snapshot.bearing)
+                });
+                Ok(())
+            }
             End::Stopped => Err(Short::Stopped),
             End::Failed(error) => Err(failed(&error)),
         }
@@ -155,6 +165,11 @@ impl<'a> Run<'a> {
         self.ended.as_ref().map(|(result, _)| result.simulation.model())
     }
 
+    /// Of a history: what the machine is at this run.
+    pub(crate) fn snapshot(&self) -> Option<&Snapshot> {
+        self.draw.as_ref()?.snapshot.as_deref()
+    }
+
     /// Of pure rolling, at constant speed.
     pub(crate) fn kinematics(&self) -> Option<Kinematics> {
         self.kinematics_of(self.model()?)
@@ -164,6 +179,27 @@ impl<'a> Run<'a> {
     pub(crate) fn kinematics_of_first(&self) -> Option<Kinematics> {
         let (result, _) = self.ended.as_ref()?;
         self.kinematics_of(&result.simulation.machine().bearings[0].model)
+    }
+
+    /// Of a history: outline of the damage, s or z of its corners, mm.
+    pub(crate) fn outline(&self, axis: usize) -> Option<Vec<f64>> {
+        self.snapshot()?;
+        let corners = self.scenario()?.defects.first().map_or(Vec::new(), |defect| match &defect.shape {
+            scenario::Shape::Outline { polygons_mm } => polygons_mm.concat(),
+            _ => Vec::new(),
+        });
+        Some(corners.into_iter().map(|corner| corner[axis]).collect())
+    }
+
+    /// Of a history: passes of rolling elements over the place of the damage since the machine was new (0), or since damage
+    /// began (1).
+    pub(crate) fn passes(&self, since: usize) -> Option<f64> {
+        let snapshot = self.snapshot()?;
+        self.gathered()?;
+        let (result, _) = self.ended.as_ref()?;
+        let model = &result.simulation.machine().bearings[snapshot.bearing].model;
+        let each = TAU * model.kinematics(1.0).defect_frequency(snapshot.on?).1;
+        Some((each * snapshot.turns?[since]).round())
     }
 
     /// The bearing; of a machine the first.

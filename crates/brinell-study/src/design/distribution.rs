@@ -244,6 +244,21 @@ impl Distribution {
         }
     }
 
+    /// Least and largest value; infinite where nothing bounds them, and of words.
+    pub fn ends(&self) -> [f64; 2] {
+        match self {
+            Self::Uniform { low, high } | Self::Log { low, high } => [*low, *high],
+            Self::Whole { low, high } => [*low as f64, *high as f64],
+            Self::Normal { within, clip, .. } => {
+                clip.or(*within).map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
+            }
+            Self::Choice { values, .. } | Self::Grid { values } => {
+                let numbers = || values.iter().map(|value| value.number.unwrap_or(f64::INFINITY));
+                [numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max)]
+            }
+        }
+    }
+
     /// Whether every value is a number.
     pub fn is_numeric(&self) -> bool {
         match self {

@@ -3,57 +3,23 @@
 use super::damaged::{bearings_of, damage_of};
 use super::distribution::{Distribution, KINDS, Value};
 use super::drawn::{Drawn, Parameter, common_axes, sequence};
-use super::plan::{Class, OutOfRange, Plan};
+use super::history::{History, Snapshot, Turning, only_defect};
+use super::plan::{OutOfRange, Plan};
+use super::seeded::{SEEDED_PER_RUN, Seeded, holding};
 use super::sequence::Sequence;
 use super::split::{self, Part};
 use super::stream::{Secret, bits, seed, unit, word};
+use super::template::Template;
 use super::turns::{APART, Place, places};
-use brinell::document::reading::{Node, Toml, parse, quote};
+use brinell::document::reading::{Node, parse, quote};
 use brinell::document::{Loaded, Problem, read};
+use brinell::scenario::Speed;
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
 
 /// Bands of equal probability that a continuous distribution is cut into, where runs are grouped by conditions.
 const BANDS: f64 = 8.0;
-
-/// A seed that every run has one of its own of.
-struct Seeded {
-    /// The table that holds it; `*` is any element of a list. A run whose scenario has no such table has no such seed.
-    table: &'static str,
-    /// Its name there.
-    name: &'static str,
-    /// Keys of which the table has one where the seed means something; none where it always does.
-    with: &'static [&'static str],
-    /// The seed's key, where another table holds it.
-    elsewhere: Option<&'static str>,
-}
-
-impl Seeded {
-    /// The key, of a table that is there.
-    fn key(&self, holder: &str) -> String {
-        self.elsewhere.map_or_else(|| format!("{holder}.{}", self.name), str::to_owned)
-    }
-}
-
-/// Keys that are seeded per run, where the plan does not set them.
-const SEEDED_PER_RUN: [Seeded; 5] = [
-    Seeded { table: "defects.*.shape.random", name: "seed", with: &[], elsewhere: None },
-    Seeded { table: "bearing.*.defects.*.shape.random", name: "seed", with: &[], elsewhere: None },
-    Seeded { table: "sensor", name: "noise_seed", with: &["noise_rms_m_per_s2", "noise_snr_db"], elsewhere: None },
-    Seeded {
-        table: "bearing",
-        name: "seed",
-        with: &["waviness", "element_waviness"],
-        elsewhere: Some("simulation.seed"),
-    },
-    Seeded {
-        table: "bearing.*",
-        name: "seed",
-        with: &["waviness", "element_waviness"],
-        elsewhere: Some("simulation.seed"),
-    },
-];
 
 /// One run's settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,22 +32,25 @@ pub struct Draw {
     pub values: Vec<Option<Value>>,
     /// How often it was drawn before, because its values did not fit.
     pub redrawn: u64,
+    /// Of a history: what the machine is at this run.
+    pub snapshot: Option<Box<Snapshot>>,
 }
 
-/// The runs of a plan.
+/// The runs of a plan. Places are those of runs, or of machines where each has a history: what is said of a run's place is
+/// then said of its machine's.
 pub struct Draws {
     plan: Plan,
     /// Where labels are held out.
     secret: Option<Secret>,
-    classes: Vec<Drawn>,
-    places: Vec<Place>,
+    pub(super) classes: Vec<Drawn>,
+    pub(super) places: Vec<Place>,
     /// Keys of `[vary]` that are drawn, and where: over all runs together.
     common: (usize, Sequence),
     /// Each run's place there, shuffled, so that it says nothing of the class.
     order: Vec<u32>,
     parts: Vec<Part>,
     /// Of like conditions, where there is a split.
-    groups: usize,
+    pub(super) groups: usize,
     parameters: Vec<Parameter>,
 }
 
@@ -122,17 +91,26 @@ impl Draws {
 
     /// How many runs.
     pub fn runs(&self) -> usize {
-        self.places.len()
+        self.places.len() * self.plan.snapshots()
+    }
+
+    /// Place of a run, and which of the runs there it is.
+    fn place_of(&self, run: usize) -> (usize, usize) {
+        (run / self.plan.snapshots(), run % self.plan.snapshots())
     }
 
     /// Class of a run, from 0.
     pub fn class(&self, run: usize) -> usize {
-        self.places[run].class as usize
+        self.class_at(self.place_of(run).0)
+    }
+
+    fn class_at(&self, place: usize) -> usize {
+        self.places[place].class as usize
     }
 
     /// Runs of a class.
     pub fn runs_of(&self, class: usize) -> usize {
-        self.classes[class].runs
+        self.classes[class].runs * self.plan.snapshots()
     }
 
     /// Every key that some class draws.
@@ -142,24 +120,28 @@ impl Draws {
 
     /// Runs of a class whose labels are not held out.
     pub fn open_runs_of(&self, class: usize) -> usize {
-        self.classes[class].open
+        self.classes[class].open * self.plan.snapshots()
     }
 
     /// Whether a run's labels are held out.
     pub fn is_held_out(&self, run: usize) -> bool {
-        self.places[run].number == APART
+        self.is_apart(self.place_of(run).0)
+    }
+
+    fn is_apart(&self, place: usize) -> bool {
+        self.places[place].number == APART
     }
 
     /// What a run is for.
     pub fn part(&self, run: usize) -> Part {
-        self.parts[run]
+        self.parts[self.place_of(run).0]
     }
 
     /// Of each part that has runs, in the order of the files: how many of each class.
     pub fn splits(&self) -> Vec<(Part, Vec<usize>)> {
         let of = |part: Part| {
             let mut runs = vec![0; self.classes.len()];
-            let mine = (0..self.runs()).filter(|run| self.parts[*run] == part);
+            let mine = (0..self.runs()).filter(|run| self.part(*run) == part);
             mine.for_each(|run| runs[self.class(run)] += 1);
             (part, runs)
         };
@@ -167,163 +149,94 @@ impl Draws {
         all.filter(|(_, runs)| runs.iter().any(|n| *n > 0)).collect()
     }
 
-    /// Under which conditions run `run` runs: of each key its value, or in which of [`BANDS`] it lies where it is drawn
+    /// Under which conditions the runs of a place run: of each key its value, or in which of [`BANDS`] it lies where it is drawn
     /// from a continuous distribution.
-    fn conditions(&self, run: usize, keys: &[String]) -> Vec<String> {
-        let class = &self.classes[self.class(run)];
-        let of_grid = self.of_grid(run);
+    fn conditions(&self, place: usize, keys: &[String]) -> Vec<String> {
+        let class = &self.classes[self.class_at(place)];
+        let of_grid = self.of_grid(place);
         let axes = class.axes.iter().enumerate();
         axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
             .map(|(k, axis)| match axis.distribution {
                 Distribution::Uniform { .. } | Distribution::Log { .. } | Distribution::Normal { .. } => {
-                    format!("{:.0}", (BANDS * self.unit(run, k, 0)).floor())
+                    format!("{:.0}", (BANDS * self.unit((place, 0), k, 0)).floor())
                 }
                 Distribution::Whole { .. } | Distribution::Choice { .. } | Distribution::Grid { .. } => {
-                    self.value(run, k, 0, of_grid.as_deref()).toml
+                    self.value((place, 0), k, 0, of_grid.as_deref()).toml
                 }
             })
             .collect()
     }
 
-    /// What run `run` draws for those of the keys that its class draws, where that is a number.
-    fn numbers(&self, run: usize, keys: &[String]) -> Vec<f64> {
-        let class = &self.classes[self.class(run)];
-        let of_grid = self.of_grid(run);
+    /// What a place draws for those of the keys that its class draws, where that is a number.
+    pub(super) fn numbers(&self, place: usize, keys: &[String]) -> Vec<f64> {
+        let class = &self.classes[self.class_at(place)];
+        let of_grid = self.of_grid(place);
         let axes = class.axes.iter().enumerate();
         axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
-            .filter_map(|(k, _)| self.value(run, k, 0, of_grid.as_deref()).number)
+            .filter_map(|(k, _)| self.value((place, 0), k, 0, of_grid.as_deref()).number)
             .collect()
     }
 
-    /// What the author should know: grids whose combinations come unequally often, and splits without a class.
-    pub fn notes(&self) -> Vec<String> {
-        let uneven = |(class, drawn): (&Class, &Drawn)| {
-            (drawn.open % drawn.combinations != 0).then(|| {
-                format!(
-                    "class {:?} has {} runs for {} combinations of its grids: some combinations come once more than others",
-                    class.name, drawn.open, drawn.combinations
-                )
-            })
-        };
-        let classes = self.plan.classes.iter().zip(&self.classes);
-        let splits = self.splits();
-        let lacks = splits.iter().flat_map(|split| self.lacks(split));
-        let notes = self.without_runs().chain(self.idle_secret());
-        notes.chain(classes.filter_map(uneven)).chain(self.lonely()).chain(lacks).collect()
-    }
-
-    /// That a class has a share and no run.
-    fn without_runs(&self) -> impl Iterator<Item = String> {
-        let classes = self.plan.classes.iter().zip(&self.classes);
-        let empty = classes.filter(|(class, drawn)| class.share > 0.0 && drawn.runs == 0);
-        empty.map(|(class, _)| {
-            let (share, runs) = (class.share, self.runs());
-            format!("class {:?} has no run: its share, {share}, is too small for {runs} runs", class.name)
-        })
-    }
-
-    /// That a secret decides nothing.
-    fn idle_secret(&self) -> Option<String> {
-        let is_idle = !self.plan.secret.is_empty() && !self.plan.holds_out();
-        is_idle.then(|| {
-            "secret is given and held_out is 0: no labels are held out, and dataset.json shows the plan with its secret \
-             (held_out = 0.2 holds out a fifth of them)"
-                .to_owned()
-        })
-    }
-
-    /// That most groups are single runs, so that a test run has near neighbours in the training.
-    fn lonely(&self) -> Option<String> {
-        let open = self.places.iter().filter(|place| place.number != APART).count();
-        (2 * self.groups > open).then(|| {
-            format!(
-                "the split has {} groups of like conditions for {open} runs, so that runs of the test are much like some of the training: \
-                 fewer keys in split.by make larger groups ([] makes each run a group, on purpose)",
-                self.groups
-            )
-        })
-    }
-
-    /// That a split lacks classes which have runs; those of which the severities held out are all runs apart, as no
-    /// other remedy helps there.
-    fn lacks(&self, (part, runs): &(Part, Vec<usize>)) -> Vec<String> {
-        let absent = (0..runs.len()).filter(|class| runs[*class] == 0 && self.open_runs_of(*class) > 0);
-        let absent = absent.filter(|_| *part != Part::HeldOut);
-        let (severe, few): (Vec<usize>, Vec<usize>) = absent.partition(|class| self.is_severe(*class));
-        let remedies = [
-            (severe, "split.severity_range holds all of its runs, which are for the test: take a narrower range"),
-            (few, "take more runs, or fewer keys in split.by ([] makes each run a group)"),
-        ];
-        let noted = remedies.into_iter().filter(|(classes, _)| !classes.is_empty()).map(|(classes, remedy)| {
-            let names: Vec<String> =
-                classes.iter().map(|class| format!("{:?}", self.plan.classes[*class].name)).collect();
-            format!("the split {} has no run of class {}: {remedy}", part.word(), names.join(", "))
-        });
-        noted.collect()
-    }
-
-    /// Whether every open run of a class has a severity that is for the test alone.
-    fn is_severe(&self, class: usize) -> bool {
-        let Some(severity) = self.plan.split.as_ref().and_then(|split| split.severity.as_ref()) else {
-            return false;
-        };
-        let mut open = (0..self.runs()).filter(|run| self.class(*run) == class && !self.is_held_out(*run));
-        open.all(|run| severity.holds(&self.numbers(run, &severity.keys)))
-    }
-
-    /// Bits that belong to a run and words: of the secret where its labels are held out, and of nothing else then.
-    fn own_bits(&self, run: usize, words: &[u64]) -> u64 {
-        let run_and: Vec<u64> = std::iter::once(run as u64).chain(words.iter().copied()).collect();
+    /// Bits that belong to a place and words: of the secret where its labels are held out, and of nothing else then.
+    fn own_bits(&self, place: usize, words: &[u64]) -> u64 {
+        let place_and: Vec<u64> = std::iter::once(place as u64).chain(words.iter().copied()).collect();
         match &self.secret {
-            Some(secret) if self.is_held_out(run) => secret.bits(&run_and),
-            _ => bits(&[&[self.plan.seed], &*run_and].concat()),
+            Some(secret) if self.is_apart(place) => secret.bits(&place_and),
+            _ => bits(&[&[self.plan.seed], &*place_and].concat()),
         }
     }
 
-    /// Place of a run's first draw along an axis of its class, in [0, 1).
-    fn unit(&self, run: usize, axis: usize, attempt: u64) -> f64 {
-        let Place { class, number } = self.places[run];
+    /// Where a run draws along an axis of its class, in [0, 1).
+    fn unit(&self, (place, snapshot): (usize, usize), axis: usize, attempt: u64) -> f64 {
+        let Place { class, number } = self.places[place];
         let class = &self.classes[class as usize];
         let own = word(&self.parameters[class.axes[axis].parameter].key);
+        if class.axes[axis].is_anew {
+            return unit(self.own_bits(place, &[attempt, own, word("snapshot"), snapshot as u64]));
+        }
         // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the
         // class.
         if attempt == 0 && number != APART {
             let (common, together) = &self.common;
-            let place = match axis.checked_sub(*common) {
-                None => together.place(self.order[run] as usize, axis),
+            let in_design = match axis.checked_sub(*common) {
+                None => together.place(self.order[place] as usize, axis),
                 Some(own) => class.sequence.place(number as usize, own),
             };
-            if let Some(place) = place {
-                return place;
+            if let Some(in_design) = in_design {
+                return in_design;
             }
         }
-        unit(self.own_bits(run, &[attempt, own]))
+        unit(self.own_bits(place, &[attempt, own]))
     }
 
-    /// What run `run` draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
-    fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
-        let class = &self.classes[self.class(run)];
-        let of_grid = self.of_grid(run);
+    /// What a run draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
+    fn values(&self, at: (usize, usize), attempt: u64) -> Vec<Value> {
+        let class = &self.classes[self.class_at(at.0)];
+        let of_grid = self.of_grid(at.0);
         let axes = 0..class.axes.len();
-        axes.map(|k| self.value(run, k, attempt, of_grid.as_deref())).collect()
+        axes.map(|k| self.value(at, k, attempt, of_grid.as_deref())).collect()
     }
 
     /// The same along one axis of its class.
-    fn value(&self, run: usize, axis: usize, attempt: u64, of_grid: Option<&[usize]>) -> Value {
-        match (&self.classes[self.class(run)].axes[axis].distribution, of_grid) {
+    fn value(&self, at: (usize, usize), axis: usize, attempt: u64, of_grid: Option<&[usize]>) -> Value {
+        match (&self.classes[self.class_at(at.0)].axes[axis].distribution, of_grid) {
+            // Snapshots take each value in turn.
+            (Distribution::Grid { values }, _) if self.classes[self.class_at(at.0)].axes[axis].is_anew => {
+                values[at.1 % values.len()].clone()
+            }
             (Distribution::Grid { values }, Some(of_grid)) => values[of_grid[axis]].clone(),
-            (distribution, _) => distribution.value(self.unit(run, axis, attempt)),
+            (distribution, _) => distribution.value(self.unit(at, axis, attempt)),
         }
     }
 
-    /// Which value of each grid a run takes: they are walked through in order, the last one changing from run to run,
+    /// Which value of each grid a place takes: they are walked through in order, the last one changing from place to place,
     /// whatever the attempt. `None` where its labels are held out.
-    fn of_grid(&self, run: usize) -> Option<Vec<usize>> {
-        let Place { class, number } = self.places[run];
+    fn of_grid(&self, place: usize) -> Option<Vec<usize>> {
+        let Place { class, number } = self.places[place];
         let class = &self.classes[class as usize];
         let mut rest = number as usize % class.combinations;
         let mut of_grid = vec![0; class.axes.len()];
-        for (k, axis) in class.axes.iter().enumerate().rev() {
+        for (k, axis) in class.axes.iter().enumerate().rev().filter(|(_, axis)| !axis.is_anew) {
             if let Distribution::Grid { values } = &axis.distribution {
                 of_grid[k] = rest % values.len();
                 rest /= values.len();
@@ -332,31 +245,90 @@ impl Draws {
         (number != APART).then_some(of_grid)
     }
 
-    /// What run `run` draws at its `attempt`-th time, over the base scenario's text.
+    /// What run `run` draws at its `attempt`-th time, over the base scenario's text; of a history with the damage at failure.
     fn draw(&self, base: &str, run: usize, attempt: u64) -> Result<Draw, Vec<Problem>> {
-        let c = self.class(run);
+        let at = self.place_of(run);
+        let c = self.class_at(at.0);
         let class = &self.plan.classes[c];
-        let drawn = self.values(run, attempt);
+        let drawn = self.values(at, attempt);
         let mut next = drawn.iter();
         let record: Vec<String> = self.plan.signals.iter().map(|name| quote(name)).collect();
         let record = format!("[{}]", record.join(", "));
         let mut settings = vec![("simulation.record".to_owned(), record)];
-        for template in [&self.plan.vary, &class.vary] {
+        let set = |template: &Template, next: &mut std::slice::Iter<Value>, settings: &mut Vec<(String, String)>| {
             for (path, template) in template.settings() {
-                settings.push((path, template.toml(&mut next)));
+                settings.push((path, template.toml(next)));
             }
-        }
+        };
+        set(&self.plan.vary, &mut next, &mut settings);
+        // A machine's life is no part of its scenario.
+        next.by_ref().take(self.classes[c].life.len()).for_each(drop);
+        set(&class.vary, &mut next, &mut settings);
         if let Some(defects) = &class.defects {
             let damage = defects.toml(&mut next);
             settings.extend(damage_of(bearings_of(base)?, class.bearing, damage));
         }
-        let seeds = self.seeds(base, &settings, run).map_err(no_place)?;
+        if let Some(history) = &self.plan.history {
+            set(&history.snapshot, &mut next, &mut settings);
+        }
+        let seeds = self.seeds(base, &settings, at).map_err(no_place)?;
         settings.extend(seeds);
         let mut values = vec![None; self.parameters.len()];
         for (axis, value) in self.classes[c].axes.iter().zip(drawn) {
             values[axis.parameter] = Some(value);
         }
-        Ok(Draw { class: c, settings, values, redrawn: attempt })
+        Ok(Draw { class: c, settings, values, redrawn: attempt, snapshot: None })
+    }
+
+    /// Puts the damage of that time in place of the damage at failure.
+    fn grow(&self, history: &History, base: &str, run: usize, draw: &mut Draw) -> Result<(), Vec<Problem>> {
+        let whole = read(base, &draw.settings)?.scenario;
+        let defect = only_defect(&whole)?;
+        let turning = Turning::of(&whole, self.slowest(draw.class))?;
+        let at = self.place_of(run);
+        let drawn = self.values(at, draw.redrawn);
+        let life = &drawn[self.classes[draw.class].life.clone()];
+        let scattered = |k: usize| unit(self.own_bits(at.0, &[word("history.scatter"), k as u64]));
+        let mut snapshot = Snapshot::of(history, at, defect.map(|defect| defect.on), life, scattered);
+        if let Speed::Constant(rpm) = whole.operation.speed_rpm {
+            let speeds: Vec<f64> = (0..=at.1).map(|k| self.speed((at.0, k), draw).unwrap_or(rpm)).collect();
+            snapshot.turns = Some(snapshot.turned(&speeds));
+        }
+        snapshot.bearing = whole.machine.as_ref().map_or(0, |machine| machine.lead);
+        if let Some(defect) = defect {
+            let key = match &whole.machine {
+                Some(machine) => format!("bearing.{}.defects", machine.lead),
+                None => "defects".to_owned(),
+            };
+            let has_damage = snapshot.length_mm > 0.0;
+            draw.settings.retain(|(path, _)| {
+                !path.starts_with(&format!("{key}.0.shape")) && (has_damage || !path.starts_with(&key))
+            });
+            if has_damage {
+                let grown = snapshot.grown(history, (&whole, defect), &turning)?;
+                draw.settings.extend(grown.into_iter().map(|(name, value)| (format!("{key}.0.{name}"), value)));
+            } else {
+                draw.settings.push((key, "[]".to_owned()));
+            }
+        }
+        draw.snapshot = Some(Box::new(snapshot));
+        Ok(())
+    }
+
+    /// Least speed that a class draws, r/min.
+    fn slowest(&self, class: usize) -> Option<f64> {
+        let mut axes = self.classes[class].axes.iter();
+        let axis = axes.find(|axis| self.parameters[axis.parameter].key == "operation.speed_rpm")?;
+        let [low, high] = axis.distribution.ends().map(f64::abs);
+        Some(low.min(high)).filter(|rpm| rpm.is_finite())
+    }
+
+    /// Speed that a snapshot draws for itself, r/min.
+    fn speed(&self, at: (usize, usize), draw: &Draw) -> Option<f64> {
+        let mut axes = self.classes[draw.class].axes.iter();
+        let axis =
+            axes.position(|axis| axis.is_anew && self.parameters[axis.parameter].key == "operation.speed_rpm")?;
+        self.value(at, axis, draw.redrawn, None).number
     }
 
     /// Seeds of the keys in [`SEEDED_PER_RUN`].
@@ -364,7 +336,7 @@ impl Draws {
         &self,
         base: &str,
         settings: &[(String, String)],
-        run: usize,
+        (place, snapshot): (usize, usize),
     ) -> Result<Vec<(String, String)>, Vec<Problem>> {
         let root = Node::table(parse(base, settings)?);
         let mut seeds = Vec::new();
@@ -373,8 +345,10 @@ impl Draws {
             holding(&root, seeded.table, seeded.with, "", &mut holders);
             for holder in holders {
                 let key = seeded.key(&holder);
-                if !self.sets(self.class(run), &key) {
-                    let own = seed(self.own_bits(run, &[word(&key)]));
+                if !self.sets(self.class_at(place), &key) {
+                    let anew = seeded.anew.then_some(snapshot as u64).filter(|snapshot| *snapshot > 0);
+                    let words: Vec<u64> = std::iter::once(word(&key)).chain(anew).collect();
+                    let own = seed(self.own_bits(place, &words));
                     seeds.push((key, own.to_string()));
                 }
             }
@@ -388,7 +362,11 @@ impl Draws {
         let of_damage =
             key.split_once("defects.").filter(|(before, _)| before.is_empty() || before.starts_with("bearing."));
         let in_class = of_damage.map(|(_, rest)| rest).zip(class.defects.as_ref());
-        self.plan.vary.sets(key) || class.vary.sets(key) || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
+        let at_snapshots = self.plan.history.as_ref().is_some_and(|history| history.snapshot.sets(key));
+        self.plan.vary.sets(key)
+            || class.vary.sets(key)
+            || at_snapshots
+            || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
     }
 
     /// Whether runs have a seed of their own under this key, which is no parameter and differs all the same.
@@ -416,7 +394,12 @@ impl Draws {
         };
         let mut first = None;
         for attempt in 0..attempts {
-            let draw = self.draw(base, run, attempt).map_err(|problems| (problems, None))?;
+            let mut draw = self.draw(base, run, attempt).map_err(|problems| (problems, None))?;
+            if let Some(history) = &self.plan.history
+                && let Err(problems) = self.grow(history, base, run, &mut draw)
+            {
+                return Err((problems, Some(draw)));
+            }
             match read(base, &draw.settings) {
                 Ok(loaded) => return Ok((loaded, draw)),
                 Err(problems) => {
@@ -456,32 +439,4 @@ fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
         Some(_) => problem,
     };
     problems.into_iter().map(hinted).collect()
-}
-
-/// Paths of the tables that a pattern names and that have one of the keys `with`.
-fn holding(node: &Node, pattern: &str, with: &[&str], path: &str, all: &mut Vec<String>) {
-    let join = |name: &str| {
-        if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
-    };
-    let Some((head, rest)) = pattern.split_once('.').or((!pattern.is_empty()).then_some((pattern, ""))) else {
-        if let Toml::Table(table) = &node.value
-            && (with.is_empty() || with.iter().any(|key| table.contains_key(*key)))
-        {
-            all.push(path.to_owned());
-        }
-        return;
-    };
-    match &node.value {
-        Toml::Array(items) if head == "*" => {
-            for (k, item) in items.iter().enumerate() {
-                holding(item, rest, with, &join(&k.to_string()), all);
-            }
-        }
-        Toml::Table(table) => {
-            if let Some(entry) = table.get(head) {
-                holding(&entry.node, rest, with, &join(head), all);
-            }
-        }
-        _ => {}
-    }
 }

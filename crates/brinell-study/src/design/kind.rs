@@ -18,7 +18,7 @@ pub fn kind_of(text: &str) -> Option<FileKind> {
     let has = |key| keys.contains_key(key);
     match (has("bearing"), has("base")) {
         (true, false) => Some(FileKind::Scenario),
-        (false, true) if has("runs") => Some(FileKind::Plan),
+        (false, true) if has("runs") || has("machines") => Some(FileKind::Plan),
         _ => None,
     }
 }

@@ -1,8 +1,10 @@
 //! A plan: its runs, what varies in them, and how they are divided.
 
+mod history;
 mod keys;
 mod problems;
 
+use super::history::History;
 use super::template::Template;
 use brinell::document::reading::Choice;
 
@@ -100,8 +102,10 @@ pub struct Plan {
     pub name: String,
     /// File of the base scenario, from the plan's folder.
     pub base: String,
-    /// How many runs.
+    /// How many runs; with histories machines times snapshots.
     pub runs: usize,
+    /// Machines that each have a history, where runs are snapshots of machines.
+    pub history: Option<History>,
     /// Which ones: another seed draws others.
     pub seed: u64,
     /// How they are spread.
@@ -141,9 +145,31 @@ impl Plan {
         self.held_out > 0.0
     }
 
+    /// What draws its class and is for training or for the test as a whole: a run, or a machine with all its snapshots.
+    pub(super) fn units(&self) -> usize {
+        self.runs / self.snapshots()
+    }
+
+    /// Runs of one such.
+    pub(super) fn snapshots(&self) -> usize {
+        self.history.as_ref().map_or(1, |history| history.snapshots)
+    }
+
+    /// What one such is called.
+    pub(super) fn unit(&self) -> &'static str {
+        if self.history.is_some() { "machine" } else { "run" }
+    }
+
+    /// Rows of a file: whole machines.
+    pub(crate) fn rows_per_file(&self) -> usize {
+        let each = self.snapshots();
+        (self.runs_per_file / each).max(1) * each
+    }
+
     fn templates(&self) -> impl Iterator<Item = (String, &Template)> {
         let classes = self.classes.iter().enumerate();
         let own = classes.map(|(k, class)| (format!("classes.{k}.vary"), &class.vary));
-        std::iter::once(("vary".to_owned(), &self.vary)).chain(own)
+        let snapshot = self.history.iter().map(|history| ("history.snapshot".to_owned(), &history.snapshot));
+        std::iter::once(("vary".to_owned(), &self.vary)).chain(own).chain(snapshot)
     }
 }

@@ -10,8 +10,9 @@ use serde_json::{Map, Value as Json, json};
 const DISTRIBUTION: &str = include_str!("distribution.schema.json");
 
 /// Where the plan's own keys hold a piece of a scenario, and which.
-const PIECES: [(&str, &str); 3] = [
+const PIECES: [(&str, &str); 4] = [
     ("/properties/vary", "vary"),
+    ("/properties/history/properties/snapshot", "vary"),
     ("/properties/classes/items/properties/vary", "vary"),
     ("/properties/classes/items/properties/defects", "defects"),
 ];
@@ -27,6 +28,9 @@ pub fn plan_schema() -> Json {
             at.insert("$ref".into(), format!("#/$defs/{piece}").into());
         }
     }
+    let none = json!({ "machines": false, "snapshots": false, "history": false });
+    schema["oneOf"] =
+        json!([{ "required": ["runs"], "properties": none }, { "required": ["machines", "snapshots", "history"] }]);
     let mut scenario = json_schema();
     if let Some(Json::Object(keys)) = scenario.get_mut("properties") {
         keys.remove("provenance");

@@ -68,7 +68,7 @@ pub(super) fn parts(
     let Some(split) = &plan.split else {
         return Ok((parts, 0));
     };
-    let keys = keys(parameters, split)?;
+    let keys = keys(parameters, split, plan.history.is_some())?;
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     let open = (0..parts.len()).filter(|run| parts[*run] != Part::HeldOut);
     for run in open {
@@ -93,7 +93,7 @@ pub(super) fn parts(
             "the runs have {} group{} of conditions by {}, and {wanted} parts are wanted",
             groups.len(),
             if groups.len() == 1 { "" } else { "s" },
-            if keys.is_empty() { "run".into() } else { keys.join(", ") },
+            if keys.is_empty() { plan.unit().into() } else { keys.join(", ") },
         );
         let problem = Problem::error("split.by", message);
         return Err(vec![problem.allowed("keys that take more values, or [] for each run by itself")]);
@@ -132,7 +132,7 @@ fn hold_out(
     numbers: impl Fn(usize, &[String]) -> Vec<f64>,
     parts: &mut [Part],
 ) -> Result<(), Vec<Problem>> {
-    let numeric = parameters.iter().filter(|p| p.numeric);
+    let numeric = parameters.iter().filter(|p| p.numeric && !p.anew);
     let names: Vec<&str> = numeric.map(|p| p.key.as_str()).collect();
     let unknown = severity.keys.iter().filter(|key| !names.contains(&key.as_str()));
     let problems: Vec<Problem> = unknown
@@ -162,10 +162,13 @@ fn hold_out(
     Err(vec![problem.value(format!("[{low:?}, {high:?}]")).allowed("a range of some of the runs")])
 }
 
-/// The keys that make groups.
-fn keys(parameters: &[Parameter], split: &Split) -> Result<Vec<String>, Vec<Problem>> {
-    let common = || parameters.iter().filter(|p| p.common);
+/// The keys that make groups; machines with a history are groups by themselves.
+fn keys(parameters: &[Parameter], split: &Split, has_histories: bool) -> Result<Vec<String>, Vec<Problem>> {
+    let common = || parameters.iter().filter(|p| p.common && !p.anew);
     let Some(by) = &split.by else {
+        if has_histories {
+            return Ok(Vec::new());
+        }
         let is_condition = |key: &str| ["bearing.", "operation."].iter().any(|s| key.starts_with(s));
         let keys = common().filter(|p| is_condition(&p.key));
         return Ok(keys.map(|p| p.key.clone()).collect());

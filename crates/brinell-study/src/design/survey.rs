@@ -130,7 +130,8 @@ pub(crate) fn place_in_plan(draws: &Draws, plan_text: &str, run: usize, problem:
     let class = draws.class(run);
     let mut key = problem.key.as_str();
     loop {
-        for at in [format!("vary.{key}"), format!("classes.{class}.vary.{key}"), format!("classes.{class}.{key}")] {
+        let own = format!("classes.{class}");
+        for at in ["vary", "history.snapshot", &format!("{own}.vary"), &own].map(|table| format!("{table}.{key}")) {
             if let Some(place) = locate(plan_text, &at) {
                 return Some(place);
             }

@@ -1,4 +1,4 @@
-//! Which class each run is of.
+//! Which class each run is of, or each machine where it has a history.
 
 use super::plan::Plan;
 use super::stream::{Secret, unit, word};
@@ -24,7 +24,7 @@ pub(super) fn places(plan: &Plan, secret: Option<&Secret>) -> Vec<Place> {
     let total: f64 = plan.classes.iter().map(|class| class.share).sum();
     let mut counts = vec![0_u32; plan.classes.len()];
     let mut open = 0;
-    (0..plan.runs as u64)
+    (0..plan.units() as u64)
         .map(|run| {
             if let Some(secret) = secret {
                 let draw = |what: &str| unit(secret.bits(&[word(what), run]));

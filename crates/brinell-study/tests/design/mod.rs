@@ -5,6 +5,7 @@ use brinell_study::design::{Draws, Plan};
 
 mod drawing;
 mod held_out;
+mod histories;
 mod refusals;
 mod splits;
 

@@ -52,6 +52,11 @@ pub const fn key(name: &'static str, doc: &'static str) -> Spec {
 }
 
 impl Spec {
+    /// What it is called.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
     /// Another meaning.
     pub const fn doc(mut self, doc: &'static str) -> Spec {
         self.doc = doc;
@@ -108,7 +113,7 @@ pub(super) fn without_unit(name: &str) -> Option<&str> {
 
 /// The suffix of a key's name that is a unit, and the unit.
 const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
-    const SUFFIXES: [(&str, &str); 26] = [
+    const SUFFIXES: [(&str, &str); 27] = [
         ("_nms_per_rad", "N m s/rad"),
         ("_nm_per_rad", "N m/rad"),
         ("_mv_per_m_per_s2", "mV/(m/s^2)"),
@@ -135,6 +140,7 @@ const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
         ("_n", "N"),
         ("_us", "us"),
         ("_s", "s"),
+        ("_h", "h"),
     ];
     let mut i = 0;
     while i < SUFFIXES.len() {

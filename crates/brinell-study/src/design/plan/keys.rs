@@ -1,14 +1,12 @@
 //! The plan file: keys, ranges and defaults.
 
+use super::history::{HistoryKeys, MOST_RUNS};
 use super::problems::problems;
 use super::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};
 use crate::design::template::Template;
 use brinell::channel::SENSOR;
 use brinell::document::reading::{Fallback, Finder, Keys, Reader, key, parse, stated};
 use brinell::document::{Problem, Severity};
-
-/// Runs of a plan at most: what each of them draws is kept in memory.
-const MOST_RUNS: f64 = 1e6;
 
 impl Plan {
     /// Reads a plan file's text.
@@ -21,6 +19,9 @@ impl Plan {
         let mut reader = Reader::with_vocabulary(text, &root, &[]);
         keys(&mut reader, &mut plan);
         reader.finish();
+        if let Some(history) = &plan.history {
+            plan.runs = history.machines.saturating_mul(history.snapshots);
+        }
         let finder = Finder::new(text, &reader.found, &reader.provenance);
         let problems =
             if reader.problems.is_empty() { problems(&plan, text, &finder) } else { reader.problems.finish() };
@@ -60,7 +61,8 @@ fn split_of((validation, test, by, severity, range): SplitKeys) -> Option<Split>
 pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
     k.key(key("name", "name of the data set"), stated("dataset".into(), "no name given"), &mut p.name);
     k.key(key("base", "file of the base scenario, from the plan's folder"), Fallback::Required, &mut p.base);
-    k.key(key("runs", "how many runs").from(1.0).to(MOST_RUNS), Fallback::Required, &mut p.runs);
+    let mut history = HistoryKeys::default();
+    history.of_all(k, &mut p.runs);
     k.key(key("seed", "which runs: another seed draws others"), stated(1, "the first"), &mut p.seed);
     k.key(
         key("design", "how runs are spread over the distributions"),
@@ -106,6 +108,7 @@ pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
         );
     });
     p.split = split_of(split);
+    p.history = history.section(k);
     let sensor = SENSOR.map(String::from).to_vec();
     k.key(
         key("signals", "channels to keep; * matches any characters"),

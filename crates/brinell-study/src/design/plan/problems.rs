@@ -1,6 +1,9 @@
 //! What no single key of a plan can say.
 
+use super::history::MOST_RUNS;
 use super::{Class, OutOfRange, Plan, Split};
+use crate::design::distribution::Distribution;
+use crate::design::history::History;
 use crate::design::stream::Secret;
 use crate::design::template::Template;
 use brinell::document::reading::{Finder, brief_path, path_parts};
@@ -72,8 +75,72 @@ impl Checker<'_> {
         if plan.signals.is_empty() {
             self.add("signals", "[]", "a data set without signals".into(), "channels, such as \"sensor_ax\"");
         }
+        if let Some(history) = &plan.history {
+            self.history(history);
+        }
         self.classes();
         self.settings();
+    }
+
+    fn history(&mut self, history: &History) {
+        let runs = self.plan.runs as f64;
+        if runs > MOST_RUNS {
+            let message = format!("{} machines with {} snapshots are {runs} runs", history.machines, history.snapshots);
+            self.add("machines", &history.machines.to_string(), message, &format!("at most {MOST_RUNS} runs"));
+        }
+        let ([_, begins], [fails, _]) = (history.begins_mm.ends(), history.fails_mm.ends());
+        if begins >= fails {
+            let message = format!("damage begins with up to {begins} mm, so that its size would shrink until it fails");
+            let allowed = format!("> {begins} mm, or a smaller history.begins_mm");
+            self.add("history.fails_mm", &history.fails_mm.to_string(), message, &allowed);
+        }
+        if self.plan.out_of_range == OutOfRange::Redraw {
+            let message = "a snapshot that is drawn again would be of another machine";
+            self.add(
+                "out_of_range",
+                "\"redraw\"",
+                message.into(),
+                "\"refuse\" or \"fail\" where machines have histories",
+            );
+        }
+        if !matches!(history.snapshot, Template::Table(_)) {
+            self.add("history.snapshot", "", "expected a section [history.snapshot]".into(), "keys of a scenario");
+        }
+        for (path, _) in history.snapshot.settings() {
+            let at = format!("history.snapshot.{path}");
+            if path.starts_with("bearing") || path.starts_with("defects") {
+                let message = "a machine keeps its bearing, and its damage grows by [history]";
+                self.add(
+                    &at,
+                    "",
+                    message.into(),
+                    "keys of operation, sensor, lubricant, ...; this one in [vary] or in a class",
+                );
+            }
+            let sets = |class: &Class| class.vary.sets(&path);
+            if self.plan.vary.sets(&path) || self.plan.classes.iter().any(sets) {
+                self.add(&at, "", "drawn once for each machine too; a key varies in one place".into(), "");
+            }
+        }
+        self.one_sense();
+    }
+
+    /// That no machine turns one way at a snapshot and the other way at another: damage would have no trailing edge.
+    fn one_sense(&mut self) {
+        for (what, template) in self.plan.templates() {
+            let mut found = Vec::new();
+            template.distributions("", &mut found);
+            let both = |d: &Distribution| d.ends()[0] < 0.0 && d.ends()[1] > 0.0;
+            if found.iter().any(|(path, d)| path == "operation.speed_rpm" && both(d)) {
+                let message = "speeds of both signs: the trailing edge of damage would be the leading one at times";
+                self.add(
+                    &format!("{what}.operation.speed_rpm"),
+                    "",
+                    message.into(),
+                    "speeds of one sign in a plan with histories",
+                );
+            }
+        }
     }
 
     fn split(&mut self, split: &Split) {
@@ -146,6 +213,17 @@ impl Checker<'_> {
         }
         if matches!(&class.defects, Some(Template::Fixed(_) | Template::Drawn(_) | Template::Table(_))) {
             self.add(&at("defects"), "", "expected [[classes.defects]] entries, or []".into(), "a list of defects");
+        }
+        if let (Some(Template::List(defects)), Some(_)) = (&class.defects, &self.plan.history)
+            && defects.len() > 1
+        {
+            let message = format!("a history grows one defect, and this class has {}", defects.len());
+            self.add(
+                &at("defects"),
+                "",
+                message,
+                "one defect, on the part that the class is about; [] for machines that stay healthy",
+            );
         }
         let common = &self.plan.vary;
         if class.defects.is_some() && (common.sets("defects") || class.vary.sets("defects")) {

@@ -1,0 +1,124 @@
+//! The damage of a snapshot: the class's, in the size of that time.
+
+use super::outline::Star;
+use super::{Edge, History, Snapshot};
+use brinell::defect::{Extent, Shape};
+use brinell::derived::Passing;
+use brinell::document::Problem;
+use brinell::model::Model;
+use brinell::scenario::{self, Defect, Scenario, Surface};
+use brinell::signal::rounded;
+use brinell_damage::plan::{CORNERS, polygons_mm};
+use std::f64::consts::TAU;
+
+/// Turns of the shaft in a snapshot at least.
+const LEAST_TURNS: f64 = 8.0;
+
+/// The one defect of a machine that fails, from a scenario with all of its damage.
+pub(in crate::design) fn only_defect(scenario: &Scenario) -> Result<Option<&Defect>, Vec<Problem>> {
+    let wrong = |message: String, allowed: &str| Err(vec![Problem::error("defects", message).allowed(allowed)]);
+    match &scenario.defects[..] {
+        [] => Ok(None),
+        [one] if one.shape.file().is_some() => wrong(
+            "a history grows a shape that is at hand, and this one is in a file".into(),
+            "rectangle, circle, profile, random, grown or outline; `brinell defect` makes an outline of a photo, a drawing or a scan",
+        ),
+        [one] if one.table.is_some() => {
+            wrong("a table holds for one size, and a history has many".into(), "a defect without `table`")
+        }
+        [one] => Ok(Some(one)),
+        all => wrong(
+            format!("a history grows one defect, and there are {}", all.len()),
+            "one defect, or none for machines that stay healthy",
+        ),
+    }
+}
+
+/// The bearing whose damage it is, healthy and by itself.
+fn healthy(scenario: &Scenario) -> Scenario {
+    let lead = scenario.machine.as_ref().map_or(0, |machine| machine.lead);
+    Scenario { defects: Vec::new(), ..scenario.bearing_of_machine(lead) }
+}
+
+/// What the shaft does in a snapshot.
+pub(in crate::design) struct Turning {
+    model: Model,
+}
+
+impl Turning {
+    /// `slowest` is the least speed that the plan's snapshots draw, r/min, where they draw one.
+    pub(in crate::design) fn of(scenario: &Scenario, slowest: Option<f64>) -> Result<Self, Vec<Problem>> {
+        let model =
+            Model::new(&healthy(scenario)).map_err(|error| vec![Problem::error("bearing", error.to_string())])?;
+        let duration = scenario.simulation.duration_s;
+        let (turns, at) = match slowest {
+            Some(rpm) => (duration * rpm / 60.0, format!(" at the slowest speed, {rpm} r/min")),
+            None => (model.rotation.at(duration).1.abs() / TAU, String::new()),
+        };
+        // What is 8 turns by its decimals is 8 turns.
+        if turns >= LEAST_TURNS * (1.0 - 1e-9) {
+            return Ok(Self { model });
+        }
+        let message = format!("a snapshot of {} turns of the shaft{at}", rounded(turns, 3));
+        let allowed = match turns > 0.0 {
+            // Three digits, upwards.
+            true => format!(
+                ">= {} s: {LEAST_TURNS} turns; or a higher speed",
+                (1e3 * duration * LEAST_TURNS / turns).ceil() / 1e3
+            ),
+            false => format!("a shaft that turns: {LEAST_TURNS} turns a snapshot"),
+        };
+        Err(vec![Problem::error("simulation.duration_s", message).value(duration.to_string()).allowed(allowed)])
+    }
+
+    /// Whether rolling elements pass damage from its first s to its last.
+    fn is_towards_plus(&self, on: Surface) -> Option<bool> {
+        match Passing::of(&self.model, on) {
+            Passing::TowardsPlus => Some(true),
+            Passing::TowardsMinus => Some(false),
+            Passing::Never | Passing::Both { .. } => None,
+        }
+    }
+}
+
+impl Snapshot {
+    /// What a snapshot's damage sets, below the key of its list of defects: `all` is the damage at failure.
+    pub(in crate::design) fn grown(
+        &self,
+        history: &History,
+        (scenario, all): (&Scenario, &Defect),
+        turning: &Turning,
+    ) -> Result<Vec<(&'static str, String)>, Vec<Problem>> {
+        let shape = Shape::new(&all.shape, 1e-6 * all.depth_um);
+        let Some(shape) = shape else {
+            return Err(vec![Problem::error("defects", "the shape makes no sense")]);
+        };
+        let towards_plus = match (turning.is_towards_plus(all.on), history.edge) {
+            (Some(towards), _) => towards,
+            (None, Edge::Both) => true,
+            (None, _) => {
+                let message = "the shaft turns both ways, so that damage has no trailing edge";
+                return Err(vec![
+                    Problem::error("operation.speed_rpm", message).allowed("one sense, or history.edge = \"both\""),
+                ]);
+            }
+        };
+        let Some(star) = Star::of(&polygons_mm(all, &shape, CORNERS), history.edge, towards_plus) else {
+            return Err(vec![Problem::error("defects", "the shape has no length")]);
+        };
+        let widest = history.widest_mm.unwrap_or(f64::INFINITY).min(scenario.bearing.axial_reach_mm());
+        let outline = star.grown(self.length_mm, self.fails_mm, widest, -all.axial_offset_mm);
+        let points: Vec<String> = outline.iter().map(|[s, z]| format!("[{s}, {z}]")).collect();
+        let depth = match &all.shape {
+            scenario::Shape::DepthMap { .. } | scenario::Shape::Profile { depth_um: Some(_), .. } => {
+                1e6 * Extent::of(&shape, 1e-6 * all.depth_um).depth
+            }
+            _ => all.depth_um,
+        };
+        let depth = depth * (self.length_mm / self.fails_mm).powf(history.depth_exponent);
+        Ok(vec![
+            ("shape", format!("{{ outline = {{ polygons_mm = [[{}]] }} }}", points.join(", "))),
+            ("depth_um", format!("{:?}", rounded(depth, 9))),
+        ])
+    }
+}
