@@ -42,6 +42,7 @@ mod short;
 mod speed;
 mod stretch;
 mod together;
+mod trend;
 mod unit;
 
 pub use asked::{Asked, Elements};
@@ -57,3 +58,4 @@ pub use short::{Short, is_too_short};
 pub use speed::Turning;
 pub use stretch::Rest;
 pub use together::together;
+pub use trend::{ALPHA, Followed, Level, Limit, NoReach, Point, Record, Side, TimeUnit, Times, Trend};
