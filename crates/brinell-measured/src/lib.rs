@@ -58,4 +58,4 @@ pub use short::{Short, is_too_short};
 pub use speed::Turning;
 pub use stretch::Rest;
 pub use together::together;
-pub use trend::{ALPHA, Followed, Level, Limit, NoReach, Point, Record, Side, TimeUnit, Times, Trend};
+pub use trend::{ALPHA, Followed, Level, Limit, NoReach, Point, Record, Side, TimeUnit, Times, Trend, check_limit};

@@ -36,6 +36,22 @@ const LEVELS: [(&str, &str, &str); 6] = [
     ("size", "Size of the damage", "/size/length_mm"),
 ];
 
+/// Parts whose families have a score.
+const PARTS: [&str; 4] = ["outer_race", "inner_race", "rolling_element", "cage"];
+
+/// That a limit may be of a level of this name; of several bearings it begins with one's name, `6205: score_cage`.
+///
+/// # Errors
+/// In words, with all names.
+pub fn check_limit(name: &str) -> Result<(), String> {
+    let known = LEVELS.map(|level| level.0.to_owned()).into_iter().chain(PARTS.map(|part| format!("score_{part}")));
+    let known: Vec<String> = known.collect();
+    match known.iter().any(|known| known == name || name.ends_with(&format!(": {known}"))) {
+        true => Ok(()),
+        false => Err(format!("{name}: no such level; expected one of {}", known.join(", "))),
+    }
+}
+
 /// Those that any of the records has.
 pub(super) fn levels(records: &[Value]) -> Vec<Level> {
     let all: Vec<Vec<(Option<&str>, &Value)>> = records.iter().map(parts).collect();

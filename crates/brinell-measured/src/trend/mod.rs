@@ -8,6 +8,6 @@ mod when;
 mod words;
 
 pub use found::{ALPHA, Followed, Record, Trend};
-pub use level::{Level, Point};
+pub use level::{Level, Point, check_limit};
 pub use limit::{Limit, NoReach, Side};
 pub use when::{TimeUnit, Times};

@@ -68,15 +68,12 @@ impl Trend {
             Err(NoReach::Above) => String::new(),
             Err(why) => format!("; {why}"),
         };
-        Some(format!("{} {}{unit}: {above}{reach}", of.level.name, short(limit.value, 4)))
+        Some(format!("{} {}{unit}: {above}{reach}", of.level.name, limit.value))
     }
 
     fn reach(&self, reach: &Reach) -> String {
         let low = self.times.text(reach.low);
         let high = reach.high.map_or("not bounded above".into(), |high| format!("to {}", self.times.text(high)));
-        format!(
-            "if it grows on at the rate of its last records it is reached at {} ({low} {high}): an extrapolation, no forecast of life",
-            self.times.text(reach.at)
-        )
+        format!("extrapolated at the rate of the last records: reached at {} ({low} {high})", self.times.text(reach.at))
     }
 }
