@@ -123,8 +123,8 @@ impl Times {
     pub fn text(&self, at: f64) -> String {
         let Some(first) = self.first else {
             return match self.unit {
-                Some(unit) => format!("{} {}", brinell::signal::short(at, 6), unit.name()),
-                None => format!("record {}", brinell::signal::short(at, 6)),
+                Some(unit) => format!("{} {}", plain(at), unit.name()),
+                None => format!("record {}", plain(at)),
             };
         };
         let seconds = at * self.unit.map_or(1.0, TimeUnit::seconds);
@@ -196,6 +196,11 @@ impl Times {
             .filter(|t| (from..=to).contains(&(t.0 * unit.seconds())))
             .collect()
     }
+}
+
+/// A number with three decimals at most.
+fn plain(value: f64) -> f64 {
+    (1e3 * value).round() / 1e3
 }
 
 /// Records by their dates.
@@ -336,4 +341,88 @@ fn numbers_of(files: &[String]) -> Option<Vec<f64>> {
     let mut differ = (0..first.len()).filter(|k| all.iter().any(|numbers| numbers[*k] != first[*k]));
     let at = differ.next().filter(|_| differ.next().is_none())?;
     Some(all.iter().map(|numbers| numbers[at]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(files: &[&str], given: &[&str], unit: Option<TimeUnit>) -> Result<(Vec<usize>, Times), String> {
+        let owned = |all: &[&str]| all.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        Times::of(&owned(files), &owned(given), unit).map_err(|problem| problem.to_string())
+    }
+
+    #[test]
+    fn prop_a_date_is_read_as_it_is_usually_written() {
+        for name in [
+            "2004-02-12T10:32:39",
+            "rig 2004-02-12 10:32:39.csv",
+            "2004.02.12.10.32.39",
+            "pump_20040212_103239_de.wav",
+            "20040212T103239Z.mat",
+            "20040212103239.csv",
+            "2004_02_12_10_32_39.tdms",
+            "2004-02-12T12:32:39+02:00",
+        ] {
+            let date = date(name).unwrap().unwrap().to_string();
+            assert_eq!(date, "2004-02-12 10:32:39", "{name}");
+        }
+        for (name, day) in [
+            ("2004-02-12.csv", "2004-02-12 00:00:00"),
+            ("b2_20040212.npz", "2004-02-12 00:00:00"),
+            ("2004-02-12 08:05", "2004-02-12 08:05:00"),
+        ] {
+            assert_eq!(date(name).unwrap().unwrap().to_string(), day, "{name}");
+        }
+        for name in ["acc_00001.csv", "105.mat", "rig_1730_or_12.npz", "99999999.csv", "6205-2RS.csv"] {
+            assert_eq!(date(name).unwrap(), None, "{name}");
+        }
+        assert_eq!(of_path("runs/2024-03-01/signals.parquet").unwrap().unwrap().to_string(), "2024-03-01 00:00:00");
+    }
+
+    #[test]
+    fn prop_times_that_are_unclear_are_told() {
+        let files = ["a.csv", "b.csv"];
+        for (files, given, unit, words) in [
+            (&files, &["03/04/2024", "2024-05-01"][..], None, "may be 2024-04-03 or 2024-03-04"),
+            (&files, &["25.12.2024", "2024-05-01"], None, "write 2024-12-25"),
+            (&files, &["2024-05-01", "2024-05-01"], None, "a.csv and b.csv are both of 2024-05-01 00:00:00"),
+            (&files, &["2024-05-01"], None, "--date: 1 for 2 files"),
+            (&files, &["0", "12"], None, "--date 0: expected a date as"),
+            (&files, &["monday", "12"], Some(TimeUnit::Hour), "--date-unit h: expected a number"),
+            (&["2024-05-01.csv", "b.csv"], &[], None, "b.csv: no date in its name, as others have one"),
+            (&["acc_1.csv", "b.csv"], &[], Some(TimeUnit::Hour), "do not differ in one number"),
+        ] {
+            let error = of(files, given, unit).unwrap_err();
+            assert!(error.contains(words), "{error}\n{words}");
+        }
+    }
+
+    #[test]
+    fn prop_records_are_in_the_order_of_their_times() {
+        let (order, times) = of(&["2024-03-05.csv", "2024-03-01.csv", "2024-03-11.csv"], &[], None).unwrap();
+        assert_eq!((order, &times.at[..]), (vec![1, 0, 2], &[0.0, 4.0, 10.0][..]));
+        assert_eq!(
+            (times.text(4.0), times.words(), times.iso(1)),
+            ("2024-03-05".into(), "days".into(), Some("2024-03-05T00:00:00".into()))
+        );
+        let (order, times) = of(&["acc_10.csv", "acc_2.csv"], &[], Some(TimeUnit::Minute)).unwrap();
+        assert_eq!((order, &times.at[..], times.text(2.0)), (vec![1, 0], &[2.0, 10.0][..], "2 min".into()));
+        let (_, times) = of(&["x.csv", "y.csv"], &[], None).unwrap();
+        assert_eq!((times.at, times.source), (vec![1.0, 2.0], "the order of the files".into()));
+    }
+
+    /// From seconds to decades: two to seven ticks, ascending, within the records, no words twice.
+    #[test]
+    fn prop_an_axis_has_a_few_dates() {
+        for seconds in [7, 59, 601, 9000, 80_000, 259_200, 1_700_000, 9_000_000, 70_000_000, 400_000_000] {
+            let begin = NaiveDate::from_ymd_opt(2004, 2, 12).unwrap().and_hms_opt(10, 32, 39).unwrap();
+            let end = begin + chrono::TimeDelta::seconds(seconds);
+            let (_, times) = of(&["a", "b"], &[&begin.to_string(), &end.to_string()], None).unwrap();
+            let ticks = times.ticks();
+            assert!((2..=7).contains(&ticks.len()), "{seconds}: {ticks:?}");
+            assert!(ticks.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 != pair[1].1), "{ticks:?}");
+            assert!(ticks.iter().all(|tick| tick.0 >= 0.0 && tick.0 <= times.at[1]), "{ticks:?}");
+        }
+    }
 }

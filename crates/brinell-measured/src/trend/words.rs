@@ -11,6 +11,9 @@ impl Trend {
         let Some(outcome) = &of.outcome else {
             return format!("{} of {FEWEST} records that a change is looked for in", of.course.t.len());
         };
+        if outcome.changes.is_empty() && outcome.p <= self.alpha {
+            return format!("no change found of the level, but of its scatter (p = {})", short(outcome.p, 2));
+        }
         if outcome.changes.is_empty() {
             return format!("no change found (p = {})", short(outcome.p, 2));
         }

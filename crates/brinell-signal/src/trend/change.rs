@@ -31,6 +31,7 @@ pub struct Change {
     pub correlation: f64,
     /// The records it was found in, and what was before it there.
     part: (usize, usize, Base),
+    best: Best,
 }
 
 /// What was found in a level.
@@ -38,7 +39,7 @@ pub struct Change {
 pub struct Outcome {
     /// In the order of time; empty where none is significant.
     pub changes: Vec<Change>,
-    /// Probability of the largest change by scatter alone.
+    /// Probability of the largest change by scatter alone; small without a change where scatter changes and the level does not.
     pub p: f64,
 }
 
@@ -50,7 +51,7 @@ pub fn changes(course: &Course, alpha: f64) -> Option<Outcome> {
         return None;
     }
     let mut found = Vec::new();
-    let p = test(course, (0, n, Base::Level), alpha, DEPTH, &mut found);
+    let p = test(&course.calmed(), (0, n, Base::Level), alpha, DEPTH, &mut found);
     found.sort_by_key(|change: &Change| change.at);
     Some(Outcome { changes: found, p })
 }
@@ -67,10 +68,14 @@ fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, f
     if p > alpha {
         return p;
     }
-    let Some(of) = Profile::of(&stretch, base, best.kind).found() else { return p };
+    let Some(of) = Profile::of(&stretch.reweighted(&best), base, best.kind).found() else { return p };
     let unit = if best.kind == Kind::Step { 1.0 } else { 1.0 / (course.t[to - 1] - course.t[from]) };
     let (low, high) = of.by_between;
     let interval = Interval { low: unit * low, high: unit * high, freedom: stretch.len() as u32 };
+    if (base, best.kind) != (Base::Line, Kind::Growth) && low * high <= 0.0 {
+        // The scatter changes, and not the level.
+        return p;
+    }
     let at = from + of.place;
     found.push(Change {
         kind: best.kind,
@@ -80,6 +85,7 @@ fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, f
         p,
         correlation: of.rho,
         part,
+        best,
     });
     let (left, right) = match best.kind {
         Kind::Step => ((from, at, base), (at, to, Base::Level)),
@@ -123,7 +129,7 @@ impl Change {
     pub fn reach(&self, course: &Course, limit: f64) -> Option<Reach> {
         let grows = self.kind == Kind::Growth && self.by.interval.is_some_and(|i| i.low > 0.0);
         let (from, to, base) = self.part;
-        let stretch = grows.then(|| Stretch::of(course, from, to))?;
+        let stretch = grows.then(|| Stretch::of(&course.calmed(), from, to).reweighted(&self.best))?;
         let (t0, span) = (course.t[from], course.t[to - 1] - course.t[from]);
         let found = reach(&Profile::of(&stretch, base, Kind::Growth), limit)?;
         let time = |t: f64| t0 + span * t;

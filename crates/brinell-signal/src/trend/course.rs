@@ -25,4 +25,31 @@ impl Course {
         let uncertainty = |s: &[f64]| s.iter().map(|s| s * s).sum::<f64>().sqrt() / s.len() as f64;
         Self { t: mean(&self.t), y: mean(&self.y), s: self.s.chunks(each).map(uncertainty).collect() }
     }
+
+    /// Values that single records far off do not move: one beyond four deviations of those around it from the median of its two
+    /// neighbours on either side gives way to this median (the identifier of F. R. Hampel). Steps and growth stay as they are.
+    pub(super) fn calmed(&self) -> Self {
+        const NEAR: usize = 2;
+        const AROUND: usize = 6;
+        const FAR: f64 = 4.0 * 1.4826;
+        let n = self.y.len();
+        let inner = NEAR..n.saturating_sub(NEAR);
+        let medians: Vec<f64> =
+            (0..n).map(|i| if inner.contains(&i) { median(&self.y[i - NEAR..=i + NEAR]) } else { self.y[i] }).collect();
+        let off: Vec<f64> = self.y.iter().zip(&medians).map(|(y, m)| (y - m).abs()).collect();
+        let mut calm = self.clone();
+        for i in inner.clone() {
+            let (from, to) = (i.saturating_sub(AROUND).max(NEAR), (i + AROUND + 1).min(n - NEAR));
+            if off[i] > FAR * median(&off[from..to]).max(self.s[i]) {
+                calm.y[i] = medians[i];
+            }
+        }
+        calm
+    }
+}
+
+pub(super) fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -1,9 +1,20 @@
 //! Least squares of a level of pieces under autoregressive scatter of first order, for every place of a change at once.
 
-use super::course::Course;
+use super::course::{Course, median};
 
 /// Correlations from record to record that are tried.
 pub(super) const CORRELATIONS: [f64; 12] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
+
+/// Records on either side of a change whose scatter is taken for their own, at least; fewer have that of all.
+const OF_THEIR_OWN: usize = 5;
+
+/// How many records are before a change.
+fn before(kind: Kind, place: usize) -> usize {
+    match kind {
+        Kind::Step => place,
+        Kind::Growth => place + 1,
+    }
+}
 
 /// What there is before a change: one level, or a straight line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +38,8 @@ pub(super) struct Stretch {
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
     pub(super) weight: Vec<f64>,
+    /// Variance that each record's own interval explains.
+    own: Vec<f64>,
     /// Least variance, in units of the records' own: what their intervals alone explain.
     pub(super) floor: f64,
 }
@@ -35,19 +48,26 @@ impl Stretch {
     pub(super) fn of(course: &Course, from: usize, to: usize) -> Self {
         let (t0, span) = (course.t[from], course.t[to - 1] - course.t[from]);
         let (y, s) = (&course.y[from..to], &course.s[from..to]);
-        let mut squares: Vec<f64> = y.windows(2).map(|p| 0.5 * (p[1] - p[0]).powi(2) / 0.455).collect();
-        let mut own: Vec<f64> = s.iter().map(|s| s * s).collect();
-        let scatter = (median(&mut squares) - median(&mut own)).max(0.0);
+        let squares: Vec<f64> = y.windows(2).map(|p| 0.5 * (p[1] - p[0]).powi(2) / 0.455).collect();
+        let scatter = (median(&squares) - median(&s.iter().map(|s| s * s).collect::<Vec<_>>())).max(0.0);
         // Numbers of a file have so many digits.
         let digits = 1e-4 * (1.0 + y.iter().fold(0.0, |m: f64, y| m.max(y.abs())));
-        let variance: Vec<f64> = s.iter().map(|s| scatter + s * s + digits * digits).collect();
-        let explained = s.iter().zip(&variance).map(|(s, v)| (s * s + digits * digits) / v);
-        Self {
-            t: course.t[from..to].iter().map(|t| (t - t0) / span).collect(),
-            floor: explained.sum::<f64>() / y.len() as f64,
-            weight: variance.iter().map(|v| 1.0 / v.sqrt()).collect(),
-            y: y.to_vec(),
-        }
+        let own: Vec<f64> = s.iter().map(|s| s * s + digits * digits).collect();
+        let variance = own.iter().map(|own| scatter + own).collect();
+        Self::weighted(course.t[from..to].iter().map(|t| (t - t0) / span).collect(), y.to_vec(), own, variance)
+    }
+
+    fn weighted(t: Vec<f64>, y: Vec<f64>, own: Vec<f64>, variance: Vec<f64>) -> Self {
+        let explained = own.iter().zip(&variance).map(|(own, v)| own / v);
+        let floor = explained.sum::<f64>() / y.len() as f64;
+        Self { t, y, own, floor, weight: variance.iter().map(|v| 1.0 / v.sqrt()).collect() }
+    }
+
+    /// The same with records weighted by their scatter before and behind a change.
+    pub(super) fn reweighted(&self, best: &Best) -> Self {
+        let before = before(best.kind, best.fit.0);
+        let variance = self.weight.iter().enumerate().map(|(i, w)| best.variances[usize::from(i >= before)] / (w * w));
+        Self::weighted(self.t.clone(), self.y.clone(), self.own.clone(), variance.collect())
     }
 
     pub(super) fn len(&self) -> usize {
@@ -75,6 +95,18 @@ impl Stretch {
     pub(super) fn likelihood(&self, squares: f64, freedom: f64) -> f64 {
         let variance = (squares / freedom).max(self.floor);
         -0.5 * freedom * variance.ln() - 0.5 * squares / variance
+    }
+
+    /// The log-likelihood of two parts of a sum of squares, each with a variance of its own where it has records enough; and the variances.
+    fn in_two(&self, squares: f64, front: f64, before: usize) -> (f64, [f64; 2]) {
+        let n = self.len();
+        if before < OF_THEIR_OWN || n - before < OF_THEIR_OWN {
+            let n = n as f64;
+            return (self.likelihood(squares, n), [(squares / n).max(self.floor); 2]);
+        }
+        let parts = [(front, before), ((squares - front).max(0.0), n - before)];
+        let [first, second] = parts.map(|(squares, n)| self.likelihood(squares, n as f64));
+        (first + second, parts.map(|(squares, n)| (squares / n as f64).max(self.floor)))
     }
 
     /// The sum of squares that has this log-likelihood.
@@ -120,7 +152,7 @@ pub(super) struct Search<'a> {
 }
 
 /// The best of a search.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Best {
     /// Twice the gain of log-likelihood over no change.
     pub(super) gain: f64,
@@ -130,6 +162,8 @@ pub(super) struct Best {
     pub(super) variance: f64,
     /// Place and correlation of the change.
     pub(super) fit: (usize, f64),
+    /// Variance of what is new in a record before and behind the change.
+    pub(super) variances: [f64; 2],
 }
 
 /// Records that a change leaves on either side, at least.
@@ -153,7 +187,7 @@ impl<'a> Search<'a> {
     pub(super) fn best(&self, y: &[f64]) -> Best {
         let s = self.stretch;
         let (mut none, mut rho0, mut variance) = (f64::NEG_INFINITY, 0.0, 0.0);
-        let (mut most, mut kind, mut fit) = (f64::NEG_INFINITY, Kind::Step, (0, 0.0));
+        let (mut most, mut change) = (f64::NEG_INFINITY, (Kind::Step, (0, 0.0), [1.0; 2]));
         for (rho, columns) in CORRELATIONS.into_iter().zip(&self.columns) {
             let (squares, left) = s.left(y, rho, columns);
             let (n, whitening) = (s.len() as f64, whitening(rho));
@@ -161,18 +195,16 @@ impl<'a> Search<'a> {
             if likelihood > none {
                 (none, rho0, variance) = (likelihood, rho, (squares / n).max(s.floor));
             }
-            let mut largest = (0.0, Kind::Step, 0);
-            self.gains(rho, columns, &left, |gain, k, kind| {
-                if gain > largest.0 {
-                    largest = (gain, kind, k);
+            self.gains(rho, columns, (squares, &left), |gain, front, k, kind| {
+                let (likelihood, variances) = s.in_two((squares - gain).max(0.0), front.max(0.0), before(kind, k));
+                if likelihood + whitening > most {
+                    most = likelihood + whitening;
+                    change = (kind, (k, rho), variances);
                 }
             });
-            let likelihood = s.likelihood((squares - largest.0).max(0.0), n) + whitening;
-            if likelihood > most {
-                (most, kind, fit) = (likelihood, largest.1, (largest.2, rho));
-            }
         }
-        Best { gain: 2.0 * (most - none), kind, rho: rho0, variance, fit }
+        let (kind, fit, variances) = change;
+        Best { gain: 2.0 * (most - none), kind, rho: rho0, variance, fit, variances }
     }
 
     /// What is new in each record, and in no level with this change, in units of its standard deviation.
@@ -181,28 +213,57 @@ impl<'a> Search<'a> {
         let columns = orthonormal(self.stretch.columns(self.base, best.kind, place, rho)).0;
         let (_, mut left) = self.stretch.left(&self.stretch.y, rho, &columns);
         let mean = left.iter().sum::<f64>() / left.len() as f64;
-        left.iter_mut().for_each(|x| *x -= mean);
+        let before = before(best.kind, place);
+        left.iter_mut()
+            .enumerate()
+            .for_each(|(i, x)| *x = (*x - mean) / best.variances[usize::from(i >= before)].sqrt());
         let deviation = (dot(&left, &left) / left.len() as f64).sqrt();
         left.iter_mut().for_each(|x| *x /= deviation.max(f64::MIN_POSITIVE));
         left
     }
 
-    /// By how much each change lessens the sum of squares of what is `left`; from the last record to the first, with the sums over all
-    /// records behind a place.
-    fn gains(&self, rho: f64, columns: &[Vec<f64>], left: &[f64], mut of: impl FnMut(f64, usize, Kind)) {
+    /// By how much each change lessens the sum of squares of what is `left`, and how much of this is then before it; from the last record to the
+    /// first, with the sums over all records behind a place.
+    fn gains(
+        &self,
+        rho: f64,
+        columns: &[Vec<f64>],
+        (squares, left): (f64, &[f64]),
+        mut of: impl FnMut(f64, f64, usize, Kind),
+    ) {
         let (s, n) = (self.stretch, self.stretch.len());
         let ranges = [Kind::Step, Kind::Growth].map(|kind| places(n, self.base, kind));
         let (mut cc, mut cu, mut uu, mut cw, mut uw) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let (mut cq, mut uq) = ([0.0; 2], [0.0; 2]);
+        // Over this record and those behind it: squares of what is left, its products with the base, those within the base.
+        let (mut ww, mut wq, mut qq) = (0.0, [0.0; 2], [[0.0; 2]; 2]);
+        // Before a change its column is 0, and what is made normal to the base is the base's part of it alone.
+        let front = |by: f64, along: [f64; 2], (ww, wq, qq): (f64, [f64; 2], [[f64; 2]; 2])| {
+            let mut sum = squares - ww;
+            for j in 0..columns.len() {
+                sum -= 2.0 * by * along[j] * wq[j];
+                for l in 0..columns.len() {
+                    sum += by * by * along[j] * along[l] * (f64::from(u8::from(j == l)) - qq[j][l]);
+                }
+            }
+            sum
+        };
         for k in (0..n).rev() {
             let (g, t) = (s.weight[k], s.t[k]);
-            if ranges[0].contains(&k) {
-                let apart: f64 = columns.iter().zip(cq).map(|(q, cq)| (g * q[k] + cq).powi(2)).sum();
-                of(gain(g * g + cc, g * left[k] + cw, apart), k, Kind::Step);
-            }
             if ranges[1].contains(&k) {
-                let apart: f64 = columns.iter().enumerate().map(|(j, _)| (uq[j] - t * cq[j]).powi(2)).sum();
-                of(gain(uu - 2.0 * t * cu + t * t * cc, uw - t * cw, apart), k, Kind::Growth);
+                let along = [uq[0] - t * cq[0], uq[1] - t * cq[1]];
+                let (gain, by) = gain(uu - 2.0 * t * cu + t * t * cc, uw - t * cw, along);
+                of(gain, front(by, along, (ww, wq, qq)), k, Kind::Growth);
+            }
+            ww += left[k] * left[k];
+            for (j, q) in columns.iter().enumerate() {
+                wq[j] += left[k] * q[k];
+                columns.iter().enumerate().for_each(|(l, other)| qq[j][l] += q[k] * other[k]);
+            }
+            if ranges[0].contains(&k) {
+                let along = [0, 1].map(|j| columns.get(j).map_or(0.0, |q| g * q[k] + cq[j]));
+                let (gain, by) = gain(g * g + cc, g * left[k] + cw, along);
+                of(gain, front(by, along, (ww, wq, qq)), k, Kind::Step);
             }
             if k > 0 {
                 let (c, u) = (g * (1.0 - rho), g * (t - rho * s.t[k - 1]));
@@ -216,10 +277,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Of a column of this square, this product with what is left, and these squares along the base.
-fn gain(square: f64, along: f64, apart: f64) -> f64 {
-    let own = square - apart;
-    if own > 1e-9 * square { along * along / own } else { 0.0 }
+/// What a column of this square, this product with what is left and these along the base lessens the sum by, and its coefficient.
+fn gain(square: f64, product: f64, along: [f64; 2]) -> (f64, f64) {
+    let own = square - along[0] * along[0] - along[1] * along[1];
+    if own > 1e-9 * square { (product * product / own, product / own) } else { (0.0, 0.0) }
 }
 
 /// What correlation adds to a log-likelihood of whitened values.
@@ -273,11 +334,6 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,7 +351,7 @@ mod tests {
             let search = Search::new(&stretch, base);
             for (rho, columns) in CORRELATIONS.into_iter().zip(&search.columns) {
                 let (squares, left) = stretch.left(&stretch.y, rho, columns);
-                search.gains(rho, columns, &left, |gain, k, kind| {
+                search.gains(rho, columns, (squares, &left), |gain, front, k, kind| {
                     let change = |i: usize, t: f64| match kind {
                         Kind::Step => f64::from(u8::from(i >= k)),
                         Kind::Growth => (t - stretch.t[k]).max(0.0),
@@ -303,7 +359,10 @@ mod tests {
                     let column: Vec<f64> = stretch.t.iter().enumerate().map(|(i, t)| change(i, *t)).collect();
                     let mut all = columns.clone();
                     all.push(stretch.whitened(&column, rho));
-                    let fitted = solved(all, stretch.whitened(&stretch.y, rho)).squares;
+                    let fitted = solved(all.clone(), stretch.whitened(&stretch.y, rho)).squares;
+                    let (_, left) = stretch.left(&stretch.y, rho, &orthonormal(all).0);
+                    let direct = dot(&left[..before(kind, k)], &left[..before(kind, k)]);
+                    assert!((front - direct).abs() < 1e-8 * squares, "{kind:?} {k} {rho}: {front} {direct}");
                     // Growth from the first record on is no news to a line, and is not asked of one.
                     assert!((squares - gain - fitted).abs() < 1e-8 * squares, "{kind:?} {k} {rho}: {gain}");
                 });
