@@ -9,7 +9,7 @@ use tempfile::{TempDir, tempdir};
 fn records(name: impl Fn(usize) -> String) -> TempDir {
     let folder = tempdir().unwrap();
     fs::create_dir(folder.path().join("records")).unwrap();
-    for k in 0..10 {
+    for k in 0..10usize {
         let height = [1.5, 3.0, 6.0, 12.0].get(k.wrapping_sub(6)).copied().unwrap_or(0.0);
         let gain = 1.0 + 0.01 * ((7 * k) % 5) as f64;
         let x: Vec<f64> = impacts(height).iter().map(|v| gain * v).collect();

@@ -89,7 +89,7 @@ fn plot(trend: &Trend, name: &str, label: &str, of: &[&Followed]) -> IndicatorPl
         changes.map(|(of, change)| [change.between.0, change.at, change.between.1].map(|k| of.time(change, k)));
     let limits = of
         .iter()
-        .filter_map(|of| of.limit.as_ref().map(|limit| (limit.value, format!("limit {}", short(limit.value, 4)))));
+        .filter_map(|of| of.limit.as_ref().map(|limit| (limit.value, format!("limit {}", limit.value))));
     let lane = |says: &str, words: &str, tone| {
         let at = trend.records.iter().zip(&trend.times.at).filter(|(record, _)| record.says == says).map(|(_, at)| *at);
         (words.to_owned(), tone, at.collect::<Vec<f64>>())

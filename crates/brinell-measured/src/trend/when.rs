@@ -130,7 +130,8 @@ impl Times {
         let seconds = at * self.unit.map_or(1.0, TimeUnit::seconds);
         let date = chrono::TimeDelta::try_milliseconds((1e3 * seconds).round() as i64)
             .and_then(|by| first.checked_add_signed(by));
-        let days_alone = self.dates.iter().all(|d| d.time() == chrono::NaiveTime::MIN);
+        let days_alone = date.is_some_and(|d| d.time() == chrono::NaiveTime::MIN)
+            && self.dates.iter().all(|d| d.time() == chrono::NaiveTime::MIN);
         let close = self.dates.windows(2).any(|p| p[0].date() == p[1].date() && (p[1] - p[0]).num_minutes() < 2);
         let format = if days_alone {
             "%Y-%m-%d"

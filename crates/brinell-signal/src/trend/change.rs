@@ -68,17 +68,23 @@ fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, f
     if p > alpha {
         return p;
     }
-    let Some(of) = Profile::of(&stretch.reweighted(&best), base, best.kind).found() else { return p };
-    let unit = if best.kind == Kind::Step { 1.0 } else { 1.0 / (course.t[to - 1] - course.t[from]) };
+    // The other kind where this one's interval says no change: a level that rises and falls again is higher all the same.
+    let kinds = if best.kind == Kind::Step { [Kind::Step, Kind::Growth] } else { [Kind::Growth, Kind::Step] };
+    let reweighted = stretch.reweighted(&best);
+    let clear = kinds.into_iter().find_map(|kind| {
+        let of = Profile::of(&reweighted, base, kind).found()?;
+        let (low, high) = of.by_between;
+        // Growth may end: that is a change of a line.
+        ((base, kind) == (Base::Line, Kind::Growth) || low * high > 0.0).then_some((kind, of))
+    });
+    // Otherwise the scatter changes, and not the level.
+    let Some((kind, of)) = clear else { return p };
+    let unit = if kind == Kind::Step { 1.0 } else { 1.0 / (course.t[to - 1] - course.t[from]) };
     let (low, high) = of.by_between;
     let interval = Interval { low: unit * low, high: unit * high, freedom: stretch.len() as u32 };
-    if (base, best.kind) != (Base::Line, Kind::Growth) && low * high <= 0.0 {
-        // The scatter changes, and not the level.
-        return p;
-    }
     let at = from + of.place;
     found.push(Change {
-        kind: best.kind,
+        kind,
         at,
         between: (from + of.between.0, from + of.between.1),
         by: Estimate { value: unit * of.by, interval: Some(interval) },
@@ -87,7 +93,7 @@ fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, f
         part,
         best,
     });
-    let (left, right) = match best.kind {
+    let (left, right) = match kind {
         Kind::Step => ((from, at, base), (at, to, Base::Level)),
         Kind::Growth => ((from, at + 1, base), (at, to, Base::Line)),
     };
