@@ -87,9 +87,8 @@ fn plot(trend: &Trend, name: &str, label: &str, of: &[&Followed]) -> IndicatorPl
         of.iter().flat_map(|of| of.outcome.iter().flat_map(|found| &found.changes).map(move |change| (of, change)));
     let changes =
         changes.map(|(of, change)| [change.between.0, change.at, change.between.1].map(|k| of.time(change, k)));
-    let limits = of
-        .iter()
-        .filter_map(|of| of.limit.as_ref().map(|limit| (limit.value, format!("limit {}", limit.value))));
+    let limits =
+        of.iter().filter_map(|of| of.limit.as_ref().map(|limit| (limit.value, format!("limit {}", limit.value))));
     let lane = |says: &str, words: &str, tone| {
         let at = trend.records.iter().zip(&trend.times.at).filter(|(record, _)| record.says == says).map(|(_, at)| *at);
         (words.to_owned(), tone, at.collect::<Vec<f64>>())

@@ -12,7 +12,7 @@ impl Trend {
             return format!("{} of {FEWEST} records that a change is looked for in", of.course.t.len());
         };
         if outcome.changes.is_empty() && outcome.p <= self.alpha {
-            return format!("no change found of the level, but of its scatter (p = {})", short(outcome.p, 2));
+            return format!("changed (p = {}), not clear whether in level or in scatter", short(outcome.p, 2));
         }
         if outcome.changes.is_empty() {
             return format!("no change found (p = {})", short(outcome.p, 2));
