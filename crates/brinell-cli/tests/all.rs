@@ -5,6 +5,7 @@ mod analyze_bearings;
 mod analyze_inputs;
 mod analyze_several;
 mod analyze_together;
+mod analyze_trend;
 mod analyze_units;
 mod analyze_warnings;
 mod calibrate;

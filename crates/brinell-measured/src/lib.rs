@@ -43,6 +43,7 @@ mod size;
 mod speed;
 mod stretch;
 mod together;
+mod trend;
 mod unit;
 
 pub use asked::{Asked, Elements};
@@ -59,3 +60,4 @@ pub use size::Length;
 pub use speed::Turning;
 pub use stretch::Rest;
 pub use together::together;
+pub use trend::{ALPHA, Followed, Level, Limit, NoReach, Point, Record, Side, TimeUnit, Times, Trend, check_limit};

@@ -83,6 +83,7 @@ pub mod spectrum;
 pub mod stream;
 pub mod tacho;
 pub mod transformed;
+pub mod trend;
 pub mod velocity_bands;
 pub mod window;
 

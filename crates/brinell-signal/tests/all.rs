@@ -8,5 +8,6 @@ mod drift;
 mod rig;
 mod signal_scipy;
 mod together;
+mod trend;
 mod verdicts;
 mod wrong_speed;

@@ -1,6 +1,7 @@
 //! The options of `brinell analyze`.
 
 use super::signal_args::SignalArgs;
+use super::trend_args::TrendArgs;
 use crate::args::{Elements, quantity, shaft_speed};
 use crate::failure::Failure;
 use crate::figures::PlotFormat;
@@ -27,7 +28,8 @@ use std::path::PathBuf;
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n  \
-    brinell analyze records/ --together --rate 25600 --unit g --speed 1480 --bearing 6205    one verdict for all\n\n\
+    brinell analyze records/ --together --rate 25600 --unit g --speed 1480 --bearing 6205    one verdict for all\n  \
+    brinell analyze records/ --trend --limit rms_velocity=4.5 --unit g --speed 1480 --bearing 6205 -o trend    a machine over time\n\n\
     Bearings by name: `brinell bearing list`, the catalogue and those known by their frequencies alone (6205-2RS, ER-16K, ZA-2115, 22205, 30204 and others); or a scenario file that has the bearing.\n\n\
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
@@ -38,6 +40,8 @@ pub(crate) struct AnalyzeArgs {
     /// One verdict for all files: records of one machine by one sensor at one speed, whose evidence is averaged
     #[arg(long, conflicts_with = "against")]
     pub(crate) together: bool,
+    #[command(flatten)]
+    pub(crate) trend: TrendArgs,
     #[command(flatten)]
     pub(crate) signal: SignalArgs,
     /// Shaft speed (the inner ring turns, the outer rests)

@@ -4,9 +4,13 @@ mod args;
 mod columns;
 mod files;
 mod page;
+mod plots;
 mod records;
+mod rows;
 mod several;
 pub(crate) mod signal_args;
+mod trend;
+mod trend_args;
 mod words;
 mod written;
 
@@ -42,11 +46,16 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     }
     let request = args.request()?;
     request.check()?;
-    match files(&args.files)? {
+    let found = files(&args.files)?;
+    if args.trend.trend {
+        let (paths, times) = args.trend.dated(found, channels)?;
+        return several::analyze(args, &request, &paths, Some(times));
+    }
+    match found {
         Files::One(path) if channels < 2 => one(args, &request, &[path]),
         Files::Several(paths) if args.together => one(args, &request, &paths),
-        Files::One(path) => several::analyze(args, &request, &[path]),
-        Files::Several(paths) => several::analyze(args, &request, &paths),
+        Files::One(path) => several::analyze(args, &request, &[path], None),
+        Files::Several(paths) => several::analyze(args, &request, &paths, None),
     }
 }
 
@@ -55,7 +64,7 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
     let measurement = together(paths, request)?;
     if is_too_short(&measurement, request)? {
         // Its levels, as a row.
-        return several::analyze(args, request, paths);
+        return several::analyze(args, request, paths, None);
     }
     let file = of_file(&measurement);
     let alike = |previous: &Value| ["path", "records"].iter().all(|key| previous.get(key) == file.get(key));
@@ -68,6 +77,7 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
         let page = page::report(&found).into();
         written = put_pages(
             folder,
+            None,
             &args.plots,
             &json,
             &brinell_report::html(&page),

@@ -7,7 +7,7 @@ use crate::files::make_folder;
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, REPORT, Results, SCENARIO};
 use crate::say::{self, pretty};
-use brinell_io::atomic_write;
+use brinell_io::{atomic_prepare, atomic_write};
 use brinell_report::Picture;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -56,9 +56,10 @@ fn spare_others(path: &Path) -> Result<(), Failure> {
     )))
 }
 
-/// A page with its pictures, and the JSON that describes them, into a folder.
+/// A page with its pictures, a table by name, and the JSON that describes them, into a folder.
 pub(super) fn put_pages(
     folder: &Path,
+    table: Option<(&str, String)>,
     formats: &[PlotFormat],
     json: &Value,
     page: &str,
@@ -67,7 +68,8 @@ pub(super) fn put_pages(
 ) -> Result<Vec<PathBuf>, Failure> {
     make_folder(folder)?;
     let page = Some((REPORT, page));
-    Ok(earlier.publish(Vec::new(), (ANALYSIS, json.clone()), page, (pictures, formats))?.0)
+    let table = table.map(|(name, text)| atomic_prepare(folder.join(name), text)).transpose()?;
+    Ok(earlier.publish(table.into_iter().collect(), (ANALYSIS, json.clone()), page, (pictures, formats))?.0)
 }
 
 /// The JSON where `--json` wants it.

@@ -156,10 +156,9 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
                 Some(_) => Vec::new(),
                 None => values.iter().map(|v| (*v).to_owned()).collect(),
             },
-            ordered: false,
             legend: legend.join(", "),
             lines: lines.to_vec(),
-            limits: Vec::new(),
+            ..IndicatorPlot::default()
         })
         .collect()
 }

@@ -260,6 +260,24 @@ impl Chart {
         }
     }
 
+    /// Words at places of the x axis with a line each; words that would meet are left out.
+    pub(crate) fn ticks_at(&mut self, ticks: &[(f64, String)]) {
+        let (font, frame) = (self.spec.size.font, self.frame);
+        let mut free = f64::NEG_INFINITY;
+        for (value, words) in ticks {
+            let (x, half) = (self.x.at(*value), 0.5 * font::width(words, font, false));
+            if x < frame.left || x > frame.right {
+                continue;
+            }
+            self.picture.path(&[(x, frame.top), (x, frame.bottom)], Paint::line(ink::GRID, 1.0));
+            let middle = x.min(self.spec.size.width - half - 2.0);
+            if middle - half > free {
+                self.picture.text(Text::new(middle, frame.bottom + 1.4 * font, font, Anchor::Middle, words));
+                free = middle + half + 8.0;
+            }
+        }
+    }
+
     /// What the names are of.
     pub(crate) fn label_x(&mut self, label: &str) {
         let (font, frame) = (self.spec.size.font, self.frame);

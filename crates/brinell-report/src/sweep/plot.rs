@@ -1,7 +1,7 @@
 //! One indicator against a key: a line for each value of the other keys, with intervals.
 
-use crate::chart::{Chart, Domain, Size, Spec, range};
-use crate::data::Along;
+use crate::chart::{Chart, Domain, LANE_HEIGHT, Lane, Mark, Size, Spec, range};
+use crate::data::{Along, Tone};
 use crate::embedded::{Curve, Plot};
 use crate::font;
 use crate::layout::{Layout, legend};
@@ -51,6 +51,12 @@ pub struct IndicatorPlot {
     /// Values that the lines are compared with, each with a few words; dashed. Of those above all values only the
     /// lowest is shown.
     pub limits: Vec<(f64, String)>,
+    /// Words at places of the x axis, such as dates, in place of its numbers.
+    pub x_ticks: Vec<(f64, String)>,
+    /// Changes: the earliest, the most likely and the latest place on the x axis.
+    pub changes: Vec<[f64; 3]>,
+    /// Places on the x axis, marked above the plot: each kind with its words and colour.
+    pub lanes: Vec<(String, Tone, Vec<f64>)>,
 }
 
 impl IndicatorPlot {
@@ -80,7 +86,7 @@ fn paint(line: usize) -> Paint {
 /// The plot.
 pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let height = if layout.roomy() { 340.0 } else { 300.0 };
-    let mut size = layout.size(height);
+    let mut size = layout.size(height + LANE_HEIGHT * plot.lanes.len() as f64);
     let named = !plot.x_names.is_empty();
     let axis_room = 3.4 * size.font - 8.0;
     if named {
@@ -92,6 +98,15 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
         chart.clear("ticks-x");
         chart.name_x(&plot.x_names, 0.0, 6.0);
         chart.label_x(&plot.x_label);
+    }
+    if !plot.x_ticks.is_empty() {
+        chart.clear("ticks-x");
+        chart.ticks_at(&plot.x_ticks);
+    }
+    for [low, at, high] in &plot.changes {
+        chart.highlight(*low, *high);
+        let (frame, x) = (chart.frame, chart.x.at(*at));
+        chart.picture.path(&[(x, frame.top), (x, frame.bottom)], Paint::line(ink::BLACK, 1.0).dashed(&[2.0, 2.5]));
     }
     let mut points = plot.lines.iter().flat_map(|line| &line.points);
     if points.all(|p| !p.value.is_finite()) {
@@ -167,6 +182,7 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
         Domain::around(points().map(|p| p.x))
     };
     Spec {
+        lanes: plot.lanes.iter().map(lane).collect(),
         x_axis: !named,
         right: if beside > 0.0 { beside + 12.0 } else { 0.0 },
         ..Spec::new(
@@ -176,6 +192,22 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
             (x, &plot.x_label, &plot.x_unit),
             (y, &plot.label, &plot.unit),
         )
+    }
+}
+
+fn lane((words, tone, places): &(String, Tone, Vec<f64>)) -> Lane {
+    Lane {
+        label: words.clone(),
+        value: String::new(),
+        color: match tone {
+            Tone::Good => ink::GREEN,
+            Tone::Bad => ink::VERMILLION,
+            Tone::Open => ink::ORANGE,
+        },
+        dash: &[],
+        through: false,
+        marks: places.iter().map(|x| Mark { x: *x, name: words.clone(), label: String::new() }).collect(),
+        minor: Vec::new(),
     }
 }
 

@@ -17,10 +17,8 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
         x_label: "operation.speed_rpm".into(),
         x_unit: "r/min".into(),
         x_names: names.iter().map(|n| (*n).to_owned()).collect(),
-        legend: String::new(),
-        ordered: false,
         lines: vec![IndicatorLine { label: "full".into(), points }],
-        limits: Vec::new(),
+        ..IndicatorPlot::default()
     }
 }
 

@@ -1,0 +1,429 @@
+//! When records were taken: dates or numbers that were given, or those in the names of files.
+
+use crate::problem::Problem;
+use chrono::{DateTime, Datelike, NaiveDate, NaiveDateTime};
+use std::path::Path;
+
+/// The unit of times that are numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TimeUnit {
+    /// Seconds.
+    Second,
+    /// Minutes.
+    Minute,
+    /// Hours.
+    Hour,
+    /// Days.
+    Day,
+}
+
+impl TimeUnit {
+    /// From the shortest to the longest.
+    pub const ALL: [Self; 4] = [Self::Second, Self::Minute, Self::Hour, Self::Day];
+
+    fn row(self) -> (&'static str, &'static str, f64) {
+        match self {
+            Self::Second => ("s", "second", 1.0),
+            Self::Minute => ("min", "minute", 60.0),
+            Self::Hour => ("h", "hour", 3600.0),
+            Self::Day => ("d", "day", 86_400.0),
+        }
+    }
+
+    /// As it is given: `h`.
+    pub fn name(self) -> &'static str {
+        self.row().0
+    }
+
+    /// In words: `hour`.
+    pub fn word(self) -> &'static str {
+        self.row().1
+    }
+
+    pub(super) fn seconds(self) -> f64 {
+        self.row().2
+    }
+}
+
+/// When each record was taken, and what these times count.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Times {
+    /// Of each record, ascending: in the unit, since the first date, or as the numbers are.
+    pub at: Vec<f64>,
+    /// The unit; `None` where records are counted.
+    pub unit: Option<TimeUnit>,
+    /// The first date, where there are dates.
+    pub first: Option<NaiveDateTime>,
+    /// Where they come from, in words.
+    pub source: String,
+    dates: Vec<NaiveDateTime>,
+}
+
+impl Times {
+    /// The order of the records by time, and their times. `given` is a date or a number a file, or nothing; a number takes a unit, and so
+    /// may those in names.
+    ///
+    /// # Errors
+    /// Where a time is missing, is no date, may be two, or is there twice.
+    pub fn of(files: &[String], given: &[String], unit: Option<TimeUnit>) -> Result<(Vec<usize>, Self), Problem> {
+        let wrong = |words: String| Err(Problem::Given(words));
+        if !given.is_empty() && given.len() != files.len() {
+            return wrong(format!(
+                "--date: {} for {} files; give one for each, in the order of the files, or --date LIST.csv with the columns file,date",
+                given.len(),
+                files.len()
+            ));
+        }
+        let named = given.is_empty();
+        if !named && let Some(unit) = unit {
+            let number = |text: &String| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+            let numbers: Option<Vec<f64>> = given.iter().map(number).collect();
+            return match numbers {
+                Some(numbers) => numbered(files, &numbers, Some(unit), format!("--date, in {}s", unit.word())),
+                None => wrong(format!("--date-unit {}: expected a number a file with it", unit.name())),
+            };
+        }
+        let texts: Vec<&str> =
+            if named { files.iter().map(String::as_str).collect() } else { given.iter().map(String::as_str).collect() };
+        let dates: Vec<Option<NaiveDateTime>> =
+            texts.iter().map(|text| if named { of_path(text) } else { date(text) }).collect::<Result<_, _>>()?;
+        let without = dates.iter().position(Option::is_none);
+        match (without, named) {
+            (None, _) => dated(
+                files,
+                &dates.into_iter().flatten().collect::<Vec<_>>(),
+                if named { "the names of the files" } else { "--date" },
+            ),
+            (Some(k), false) => wrong(format!(
+                "--date {}: expected a date as 2024-02-12T10:32:39 or 2024-02-12, or a number with --date-unit, s, min, h or d",
+                given[k]
+            )),
+            (Some(k), true) if dates.iter().any(Option::is_some) => wrong(format!(
+                "{}: no date in its name, as others have one; rename it, or give --date for each file",
+                files[k]
+            )),
+            _ => match numbers_of(files) {
+                Some(numbers) => {
+                    let source = "the numbers in the names of the files".to_owned();
+                    let source = unit.map_or(source.clone(), |unit| format!("{source}, in {}s", unit.word()));
+                    numbered(files, &numbers, unit, source)
+                }
+                None if unit.is_some() => wrong(
+                    "--date-unit: the names of the files do not differ in one number; give --date for each file".into(),
+                ),
+                None => {
+                    let numbers: Vec<f64> = (1..=files.len()).map(|k| k as f64).collect();
+                    numbered(files, &numbers, None, "the order of the files".into())
+                }
+            },
+        }
+    }
+
+    /// A time for people: the date, or the number with its unit.
+    pub fn text(&self, at: f64) -> String {
+        let Some(first) = self.first else {
+            return match self.unit {
+                Some(unit) => format!("{} {}", plain(at), unit.name()),
+                None => format!("record {}", plain(at)),
+            };
+        };
+        let seconds = at * self.unit.map_or(1.0, TimeUnit::seconds);
+        let date = chrono::TimeDelta::try_milliseconds((1e3 * seconds).round() as i64)
+            .and_then(|by| first.checked_add_signed(by));
+        let days_alone = date.is_some_and(|d| d.time() == chrono::NaiveTime::MIN)
+            && self.dates.iter().all(|d| d.time() == chrono::NaiveTime::MIN);
+        let close = self.dates.windows(2).any(|p| p[0].date() == p[1].date() && (p[1] - p[0]).num_minutes() < 2);
+        let format = if days_alone {
+            "%Y-%m-%d"
+        } else if close {
+            "%Y-%m-%d %H:%M:%S"
+        } else {
+            "%Y-%m-%d %H:%M"
+        };
+        date.map_or("beyond the calendar".into(), |date| date.format(format).to_string())
+    }
+
+    /// The date of a record as ISO 8601, where there are dates.
+    pub fn iso(&self, record: usize) -> Option<String> {
+        self.dates.get(record).map(|date| date.format("%Y-%m-%dT%H:%M:%S").to_string())
+    }
+
+    /// What a span of time is counted in: `days`.
+    pub fn words(&self) -> String {
+        self.unit.map_or("records".into(), |unit| format!("{}s", unit.word()))
+    }
+
+    /// Few places for numbers on an axis from `low` to `high`, with their words.
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        const MOST: usize = 6;
+        let (Some(first), Some(unit), [from, .., to]) = (self.first, self.unit, &self.at[..]) else {
+            return Vec::new();
+        };
+        let (from, to) = (from * unit.seconds(), to * unit.seconds());
+        let span = to - from;
+        let steps = [1.0, 5.0, 10.0, 30.0, 60.0, 300.0, 600.0, 1800.0, 3600.0, 7200.0, 21_600.0, 43_200.0];
+        if let Some(step) = steps.into_iter().find(|step| span / step < MOST as f64) {
+            let midnight = first.and_utc().timestamp().rem_euclid(86_400) as f64;
+            let at = |k: f64| k * step - midnight;
+            let k0 = ((from + midnight) / step).ceil();
+            let all = (0..=MOST).map(|k| at(k0 + k as f64)).filter(|s| *s <= to);
+            let mut day = None;
+            return all
+                .map(|s| {
+                    let date = first + chrono::TimeDelta::milliseconds((1e3 * s).round() as i64);
+                    let clock = if step < 60.0 { "%H:%M:%S" } else { "%H:%M" };
+                    let format = if day == Some(date.date()) { clock.into() } else { format!("%m-%d {clock}") };
+                    day = Some(date.date());
+                    (s / unit.seconds(), date.format(&format).to_string())
+                })
+                .collect();
+        }
+        let day =
+            |date: NaiveDate| (date.and_time(chrono::NaiveTime::MIN) - first).num_seconds() as f64 / unit.seconds();
+        let days = span / 86_400.0;
+        if days < 31.0 * MOST as f64 {
+            let step = [1, 2, 7, 14, 31].into_iter().find(|step| days / f64::from(*step) < MOST as f64).unwrap_or(31);
+            let begin = first.date() + chrono::Days::new(u64::from(first.time() > chrono::NaiveTime::MIN));
+            let all = begin.iter_days().step_by(step as usize).map(|d| (day(d), d.format("%Y-%m-%d").to_string()));
+            return all.take_while(|t| t.0 * unit.seconds() <= to).take(MOST + 1).collect();
+        }
+        let months = (days / 30.4 / MOST as f64).ceil() as u32;
+        let (months, year) = if months <= 6 { (months, false) } else { (12 * months.div_ceil(12), true) };
+        let begin =
+            NaiveDate::from_ymd_opt(first.year(), if year { 1 } else { first.month() }, 1).unwrap_or(first.date());
+        let all = (0..=2 * MOST as u32).filter_map(|k| begin.checked_add_months(chrono::Months::new(k * months)));
+        let format = if year { "%Y" } else { "%Y-%m" };
+        all.map(|d| (day(d), d.format(format).to_string()))
+            .filter(|t| (from..=to).contains(&(t.0 * unit.seconds())))
+            .collect()
+    }
+}
+
+/// A number with three decimals at most.
+fn plain(value: f64) -> f64 {
+    (1e3 * value).round() / 1e3
+}
+
+/// Records by their dates.
+fn dated(files: &[String], dates: &[NaiveDateTime], source: &str) -> Result<(Vec<usize>, Times), Problem> {
+    let order = ordered(files, dates, |date| date.format("%Y-%m-%d %H:%M:%S").to_string())?;
+    let dates: Vec<NaiveDateTime> = order.iter().map(|k| dates[*k]).collect();
+    let span = (dates[dates.len() - 1] - dates[0]).num_seconds() as f64;
+    let fits = TimeUnit::ALL.into_iter().rev().find(|unit| span >= 2.0 * unit.seconds());
+    let unit = fits.unwrap_or(TimeUnit::Second);
+    let since = |date: &NaiveDateTime| (*date - dates[0]).num_milliseconds() as f64 / 1e3 / unit.seconds();
+    let at = dates.iter().map(since).collect();
+    Ok((order, Times { at, unit: Some(unit), first: Some(dates[0]), source: source.into(), dates }))
+}
+
+/// Records by numbers.
+fn numbered(
+    files: &[String],
+    numbers: &[f64],
+    unit: Option<TimeUnit>,
+    source: String,
+) -> Result<(Vec<usize>, Times), Problem> {
+    let order = ordered(files, numbers, f64::to_string)?;
+    let at = order.iter().map(|k| numbers[*k]).collect();
+    Ok((order, Times { at, unit, first: None, source, dates: Vec::new() }))
+}
+
+/// The order of times, of which no two are alike.
+fn ordered<T: PartialOrd>(files: &[String], times: &[T], words: impl Fn(&T) -> String) -> Result<Vec<usize>, Problem> {
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|a, b| times[*a].partial_cmp(&times[*b]).unwrap_or(std::cmp::Ordering::Equal));
+    match order.windows(2).find(|pair| times[pair[0]] == times[pair[1]]) {
+        None => Ok(order),
+        Some(pair) => Err(Problem::Given(format!(
+            "{} and {} are both of {}; a trend takes one record of a time: leave one out, or give --date for each file",
+            files[pair[0]],
+            files[pair[1]],
+            words(&times[pair[0]])
+        ))),
+    }
+}
+
+/// The date in a file's name, or in that of its folder.
+fn of_path(path: &str) -> Result<Option<NaiveDateTime>, Problem> {
+    let path = Path::new(path);
+    let names = [path.file_name(), path.parent().and_then(Path::file_name)];
+    for name in names.into_iter().flatten() {
+        if let Some(found) = date(&name.to_string_lossy())? {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// The first date in a text: ISO 8601, with any of - . _ : and blanks between its numbers or none.
+fn date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
+    const FORMATS: [&str; 8] = [
+        "%Y-%m-%d-%H-%M-%S",
+        "%Y-%m-%d-%H%M%S",
+        "%Y%m%d-%H%M%S",
+        "%Y%m%d%H%M%S",
+        "%Y-%m-%d-%H-%M",
+        "%Y-%m-%d-%H%M",
+        "%Y%m%d-%H%M",
+        "%Y-%m-%d",
+    ];
+    if let Ok(with_zone) = DateTime::parse_from_rfc3339(text.trim()) {
+        return Ok(Some(with_zone.naive_utc()));
+    }
+    let bytes = text.as_bytes();
+    let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
+    let plain: String = (text.char_indices())
+        .map(|(i, c)| {
+            if matches!(c, 'T' | 't' | ' ' | '.' | '_' | ':') && i > 0 && digit(i - 1) && digit(i + 1) {
+                '-'
+            } else {
+                c
+            }
+        })
+        .collect();
+    for (i, _) in plain.char_indices().filter(|(i, _)| digit(*i) && (*i == 0 || !digit(i - 1))) {
+        let rest = &plain[i..];
+        let ends = |left: &str| !left.starts_with(|c: char| c.is_ascii_digit());
+        let plausible = |d: &NaiveDate| (1900..2200).contains(&d.year());
+        for format in FORMATS {
+            let found = match NaiveDateTime::parse_and_remainder(rest, format) {
+                Ok(found) => Some(found),
+                Err(_) => NaiveDate::parse_and_remainder(rest, format)
+                    .ok()
+                    .map(|(d, left)| (d.and_time(chrono::NaiveTime::MIN), left)),
+            };
+            if let Some((date, left)) = found
+                && ends(left)
+                && plausible(&date.date())
+            {
+                return Ok(Some(date));
+            }
+        }
+        if let Ok((d, left)) = NaiveDate::parse_and_remainder(rest, "%Y%m%d")
+            && ends(left)
+            && plausible(&d)
+        {
+            return Ok(Some(d.and_time(chrono::NaiveTime::MIN)));
+        }
+        unclear(text, &rest.replace('/', "-"))?;
+    }
+    Ok(None)
+}
+
+/// That day and month are not in an order that may be either.
+fn unclear(text: &str, rest: &str) -> Result<(), Problem> {
+    let read = |format| {
+        NaiveDate::parse_and_remainder(rest, format)
+            .ok()
+            .map(|(date, _)| date)
+            .filter(|d| (1900..2200).contains(&d.year()))
+    };
+    let both: Vec<String> = [read("%d-%m-%Y"), read("%m-%d-%Y")].into_iter().flatten().map(|d| d.to_string()).collect();
+    match &both[..] {
+        [] => Ok(()),
+        [only] => Err(Problem::Given(format!("{text}: a date is expected from year to day; write {only}"))),
+        [first, second, ..] => Err(Problem::Given(format!(
+            "{text}: this date may be {first} or {second}; write the one that is meant in that way"
+        ))),
+    }
+}
+
+/// The number in which names differ, where they differ in one alone.
+fn numbers_of(files: &[String]) -> Option<Vec<f64>> {
+    let stem = |file: &String| Path::new(file).file_stem().map(|name| name.to_string_lossy().into_owned());
+    let digits = |name: String| -> Vec<f64> {
+        name.split(|c: char| !c.is_ascii_digit()).filter_map(|digits| digits.parse().ok()).collect()
+    };
+    let all: Vec<Vec<f64>> = files.iter().map(|file| stem(file).map(digits)).collect::<Option<_>>()?;
+    let first = all.first()?;
+    if all.iter().any(|numbers| numbers.len() != first.len()) {
+        return None;
+    }
+    let mut differ = (0..first.len()).filter(|k| all.iter().any(|numbers| numbers[*k] != first[*k]));
+    let at = differ.next().filter(|_| differ.next().is_none())?;
+    Some(all.iter().map(|numbers| numbers[at]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(files: &[&str], given: &[&str], unit: Option<TimeUnit>) -> Result<(Vec<usize>, Times), String> {
+        let owned = |all: &[&str]| all.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        Times::of(&owned(files), &owned(given), unit).map_err(|problem| problem.to_string())
+    }
+
+    #[test]
+    fn prop_a_date_is_read_as_it_is_usually_written() {
+        for name in [
+            "2004-02-12T10:32:39",
+            "rig 2004-02-12 10:32:39.csv",
+            "2004.02.12.10.32.39",
+            "pump_20040212_103239_de.wav",
+            "20040212T103239Z.mat",
+            "20040212103239.csv",
+            "2004_02_12_10_32_39.tdms",
+            "2004-02-12T12:32:39+02:00",
+        ] {
+            let date = date(name).unwrap().unwrap().to_string();
+            assert_eq!(date, "2004-02-12 10:32:39", "{name}");
+        }
+        for (name, day) in [
+            ("2004-02-12.csv", "2004-02-12 00:00:00"),
+            ("b2_20040212.npz", "2004-02-12 00:00:00"),
+            ("2004-02-12 08:05", "2004-02-12 08:05:00"),
+        ] {
+            assert_eq!(date(name).unwrap().unwrap().to_string(), day, "{name}");
+        }
+        for name in ["acc_00001.csv", "105.mat", "rig_1730_or_12.npz", "99999999.csv", "6205-2RS.csv"] {
+            assert_eq!(date(name).unwrap(), None, "{name}");
+        }
+        assert_eq!(of_path("runs/2024-03-01/signals.parquet").unwrap().unwrap().to_string(), "2024-03-01 00:00:00");
+    }
+
+    #[test]
+    fn prop_times_that_are_unclear_are_told() {
+        let files = ["a.csv", "b.csv"];
+        for (files, given, unit, words) in [
+            (&files, &["03/04/2024", "2024-05-01"][..], None, "may be 2024-04-03 or 2024-03-04"),
+            (&files, &["25.12.2024", "2024-05-01"], None, "write 2024-12-25"),
+            (&files, &["2024-05-01", "2024-05-01"], None, "a.csv and b.csv are both of 2024-05-01 00:00:00"),
+            (&files, &["2024-05-01"], None, "--date: 1 for 2 files"),
+            (&files, &["0", "12"], None, "--date 0: expected a date as"),
+            (&files, &["monday", "12"], Some(TimeUnit::Hour), "--date-unit h: expected a number"),
+            (&["2024-05-01.csv", "b.csv"], &[], None, "b.csv: no date in its name, as others have one"),
+            (&["acc_1.csv", "b.csv"], &[], Some(TimeUnit::Hour), "do not differ in one number"),
+        ] {
+            let error = of(files, given, unit).unwrap_err();
+            assert!(error.contains(words), "{error}\n{words}");
+        }
+    }
+
+    #[test]
+    fn prop_records_are_in_the_order_of_their_times() {
+        let (order, times) = of(&["2024-03-05.csv", "2024-03-01.csv", "2024-03-11.csv"], &[], None).unwrap();
+        assert_eq!((order, &times.at[..]), (vec![1, 0, 2], &[0.0, 4.0, 10.0][..]));
+        assert_eq!(
+            (times.text(4.0), times.words(), times.iso(1)),
+            ("2024-03-05".into(), "days".into(), Some("2024-03-05T00:00:00".into()))
+        );
+        let (order, times) = of(&["acc_10.csv", "acc_2.csv"], &[], Some(TimeUnit::Minute)).unwrap();
+        assert_eq!((order, &times.at[..], times.text(2.0)), (vec![1, 0], &[2.0, 10.0][..], "2 min".into()));
+        let (_, times) = of(&["x.csv", "y.csv"], &[], None).unwrap();
+        assert_eq!((times.at, times.source), (vec![1.0, 2.0], "the order of the files".into()));
+    }
+
+    /// From seconds to decades: two to seven ticks, ascending, within the records, no words twice.
+    #[test]
+    fn prop_an_axis_has_a_few_dates() {
+        for seconds in [7, 59, 601, 9000, 80_000, 259_200, 1_700_000, 9_000_000, 70_000_000, 400_000_000] {
+            let begin = NaiveDate::from_ymd_opt(2004, 2, 12).unwrap().and_hms_opt(10, 32, 39).unwrap();
+            let end = begin + chrono::TimeDelta::seconds(seconds);
+            let (_, times) = of(&["a", "b"], &[&begin.to_string(), &end.to_string()], None).unwrap();
+            let ticks = times.ticks();
+            assert!((2..=7).contains(&ticks.len()), "{seconds}: {ticks:?}");
+            assert!(ticks.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 != pair[1].1), "{ticks:?}");
+            assert!(ticks.iter().all(|tick| tick.0 >= 0.0 && tick.0 <= times.at[1]), "{ticks:?}");
+        }
+    }
+}
