@@ -31,6 +31,8 @@ fn size(folder: &Path, of_bearing: &[&str]) -> Value {
         "sensor_ay",
         "--unit",
         "m/s^2",
+        "--rate",
+        "25600",
         "--speed",
         "1800rpm",
         "--size",

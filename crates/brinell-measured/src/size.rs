@@ -62,7 +62,7 @@ fn told((x, fs): (&[f64], f64), lead: &Family, (rotation, shaft): (Option<&Rotat
     let Some(EventSpacing { seconds, uncertainty, .. }) = found.filter(|found| found.clarity >= CLEAR) else {
         let least = OUTLINE[1] * (mm(2.5 / fs).max(4e3 * shortest * speed) + 2e3 * way.insets[1]);
         return Err(format!(
-            "no second event stands out beside the one of each pass: the damage is shorter than about {least:.1} mm, or its edges are not steep"
+            "no second event stands out beside the one of each pass: the damage is shorter than about {least:.1} mm, its edges are not steep, or noise hides one of them"
         ));
     };
     let of = |k: usize, seconds: f64| OUTLINE[k] * (mm(seconds) + 2e3 * way.insets[k]);
