@@ -63,7 +63,7 @@ pub use format::{Format, MemoryWriter};
 pub use journal::Journal;
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
-pub use read::records::read_records;
+pub use read::records::{each_record, read_records};
 pub use read::{Channel, NoRate, NoTimes, NotNamed, Rate, RateSource, SignalFile, open, open_bytes, seconds_in};
 #[doc(hidden)]
 pub use read::{MAX_VALUES, Number, names, npy_entry, npy_number, npy_sides, npy_tuple, npy_word};

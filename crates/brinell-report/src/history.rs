@@ -34,7 +34,7 @@ impl Page {
                 "size",
                 "Size",
                 "Size over life",
-                vec![Piece::Trend(size(of)), Piece::Note(size_note(of))],
+                vec![Piece::Trend(size(of)), Piece::Note(format!("{SIZE} The length is {}.", of.told()))],
             ));
         }
         chapters.push(Chapter::of("indicators", "Indicators over life", Piece::Stack(indicators(of))));
@@ -61,6 +61,8 @@ impl Page {
 
 const OUTLINES: &str = "The damage at each snapshot on the raceway unrolled, seen from above: the later, the darker. s counts from the place of the damage, \
     counter-clockwise; both axes have one scale.";
+
+const SIZE: &str = "The true length along the rolling direction, and what brinell analyze --size tells of each snapshot's signal, given the bearing and the speed alone, without a machine's noise.";
 
 fn facts(of: &HistorySheet) -> Vec<Fact> {
     let numbers = [
@@ -116,12 +118,13 @@ fn size(of: &HistorySheet) -> IndicatorPlot {
     let point = |x: f64, value: f64, interval| IndicatorPoint { x, value, interval };
     let truth = of.snapshots.iter().map(|s| point(s.time_h, s.length_mm.unwrap_or(0.0), None));
     let mut lines = vec![IndicatorLine { label: "true length".into(), points: truth.collect() }];
-    if !of.estimates.is_empty() {
-        let found = of.estimates.iter().map(|e| {
-            let [low, value, high] = e.length_mm;
-            point(e.time_h, value, Some((low, high)))
-        });
-        lines.push(IndicatorLine { label: "estimate, 95 % interval".into(), points: found.collect() });
+    let told = of.snapshots.iter().filter_map(|s| {
+        let [low, value, high] = *s.size.as_ref()?.as_ref().ok()?;
+        Some(point(s.time_h, value, Some((low, high))))
+    });
+    let points: Vec<IndicatorPoint> = told.collect();
+    if !points.is_empty() {
+        lines.push(IndicatorLine { label: "told by the signal, 95 % interval".into(), points });
     }
     IndicatorPlot {
         name: "size".into(),
@@ -132,15 +135,6 @@ fn size(of: &HistorySheet) -> IndicatorPlot {
         lines,
         limits: of.fails_mm.into_iter().map(|mm| (mm, "fails".to_owned())).collect(),
         ..IndicatorPlot::default()
-    }
-}
-
-fn size_note(of: &HistorySheet) -> String {
-    match of.estimates.is_empty() {
-        true => "The true length along the rolling direction; no size was estimated from the signals.".into(),
-        false => {
-            "The true length along the rolling direction, and what the signals say of it with a 95 % interval.".into()
-        }
     }
 }
 
@@ -199,7 +193,6 @@ fn signals(of: &HistorySheet) -> Chapter {
 mod tests {
     use super::*;
     use crate::page::html;
-    use brinell_study::dataset::SizeEstimate;
 
     #[test]
     fn prop_estimates_are_on_the_page_beside_the_truth_and_nothing_is_markup() {
@@ -216,21 +209,24 @@ mod tests {
             snapshots: vec![at(0.0, None), at(10.0, Some(1.0)), at(20.0, Some(3.0))],
             ..HistorySheet::default()
         };
-        let estimates = vec![SizeEstimate { time_h: 20.0, length_mm: [2.5, 3.1, 3.6] }];
-        let [without, with] = [Vec::new(), estimates].map(|estimates| HistorySheet { estimates, ..history.clone() });
+        let mut with = history.clone();
+        with.snapshots[1].size = Some(Err("no second event: it is short".into()));
+        with.snapshots[2].size = Some(Ok([2.5, 3.1, 3.6]));
+        let without = history;
         let lines = size(&with).lines;
         assert_eq!(lines[1].points[0].interval, Some((2.5, 3.6)));
         assert_eq!(size(&without).lines.len(), 1);
         let page = html(&Page::of_history(with));
         for part in [
             "a &lt;b&gt;: machine 0",
-            "estimate, 95 % interval",
+            "95 % interval",
+            "The length is told in 1 of 2 snapshots with damage; 1 of these intervals hold the true length; not told: 1 times no second event.",
             "Damage over life",
             "3 damaged",
             "No snapshot has a signal",
         ] {
             assert!(page.contains(part), "{part}");
         }
-        assert!(!html(&Page::of_history(without)).contains("estimate, 95 % interval"));
+        assert!(!html(&Page::of_history(without)).contains("told by the signal"));
     }
 }

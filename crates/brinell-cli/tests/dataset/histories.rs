@@ -4,7 +4,7 @@ use super::{brinell, cell, folder_with, list, make, rows, same, text, whole};
 use parquet::record::{Field, Row};
 use std::fs;
 
-/// Two machines; the base's 1500 r/min for eight turns and more.
+/// Two machines; the base's 1500 r/min for eight turns after the start and more.
 const PLAN: &str = r#"name = "lives"
 base = "base.toml"
 machines = 3
@@ -28,7 +28,7 @@ scatter = 0.5
 operation.speed_rpm = { uniform = [1400, 1600] }
 
 [vary]
-simulation.duration_s = 0.36
+simulation.duration_s = 0.42
 simulation.laws = "mechanics"
 contact.tables = "coarse"
 
@@ -139,16 +139,28 @@ fn regress_what_a_history_is_not_is_refused_at_its_line() {
     make(folder.path(), &["-o", "out"])
         .exits(2)
         .complains(&["history.fails_mm = 0.5: damage begins with up to 1 mm", "plan.toml:15:"]);
-    let folder = folder_with(&PLAN.replace("duration_s = 0.36", "duration_s = 0.3"));
+    let folder = folder_with(&PLAN.replace("duration_s = 0.42", "duration_s = 0.3"));
     make(folder.path(), &["-o", "out"]).exits(2).complains(&[
-        "simulation.duration_s = 0.3: a snapshot of 7 turns of the shaft at the slowest speed, 1400 r/min (in 12 of 12 runs",
-        "allowed: >= 0.343 s: 8 turns",
+        "simulation.duration_s = 0.3: a snapshot of 5.53 turns of the shaft from the end of its start on at the slowest speed, 1400 r/min (in 12 of 12 runs",
+        "allowed: >= 0.406 s: 8 turns after the start",
         "plan.toml:24:",
     ]);
     let folder = folder_with(&PLAN.replace("scatter = 0.5", "scatter = 0.0"));
     make(folder.path(), &["--dry-run"])
         .exits(0)
         .complains(&["warning: history.scatter = 0: the lengths of all 3 machines follow the law"]);
+    let folder = folder_with(&PLAN.replace("scatter = 0.5", "observed = 0.1"));
+    make(folder.path(), &["--dry-run"]).exits(0).complains(&["[history] grows nothing: no snapshot has damage"]);
+    let folder = folder_with(&PLAN.replace("depth_um = 20", "depth_um = 0"));
+    make(folder.path(), &["--dry-run"]).exits(2).complains(&[
+        "no length or no depth",
+        "allowed: a shape with a length, and depth_um above 0",
+        "or `out_of_range = \"fail\"`",
+    ]);
+    let folder = folder_with(&PLAN.replace("machines = 3\n", ""));
+    make(folder.path(), &["--dry-run"])
+        .exits(2)
+        .complains(&["history.rate = { uniform = [2, 4] }: has a meaning only where `machines` is given"]);
     let folder = folder_with(super::PLAN);
     make(folder.path(), &["-o", "out", "-q"]).exits(0);
     brinell(folder.path(), &["dataset", "sheet", "out", "--machine", "0"])
@@ -163,7 +175,7 @@ fn prop_a_page_shows_one_history() {
     make(here, &["-o", "out", "-q"]).exits(0);
     brinell(here, &["dataset", "sheet", "out", "--machine", "0", "--runs", "2"])
         .exits(0)
-        .says(&["out/machine-0.html: 4 snapshots"]);
+        .says(&["out/machine-0.html: 4 snapshots. Length: told in ", " of 3 snapshots with damage; "]);
     let page = fs::read_to_string(here.join("out/machine-0.html")).unwrap();
     for part in [
         "lives: machine 0",
@@ -172,6 +184,7 @@ fn prop_a_page_shows_one_history() {
         "Remaining life",
         "Kurtosis",
         "300 h, failed",
+        " of 3 snapshots with damage; ",
     ] {
         assert!(page.contains(part), "{part}");
     }

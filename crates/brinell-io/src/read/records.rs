@@ -20,22 +20,42 @@ pub fn read_records(
     columns: &[&str],
     wanted: impl Fn(usize) -> bool,
 ) -> Result<Vec<Vec<Cell>>, IoError> {
+    let mut all = Vec::new();
+    each_record(path, columns, wanted, |cells| all.push(cells))?;
+    Ok(all)
+}
+
+/// The same, each row handed on as it is read: one is in memory.
+///
+/// # Errors
+/// As [`read_records`]; rows before the fault are handed on.
+pub fn each_record(
+    path: impl AsRef<Path>,
+    columns: &[&str],
+    wanted: impl Fn(usize) -> bool,
+    each: impl FnMut(Vec<Cell>),
+) -> Result<(), IoError> {
     let path = path.as_ref();
     let file = File::open(path).map_err(|e| IoError::reading(path, e))?;
     // The crate asserts some of what a damaged file can break.
     let damaged = |_| Err(ParquetError::General("the file is damaged".to_owned()));
-    let rows = catch_unwind(AssertUnwindSafe(|| read(file, columns, wanted)));
+    let rows = catch_unwind(AssertUnwindSafe(|| read(file, columns, wanted, each)));
     rows.unwrap_or_else(damaged).map_err(|error| IoError::Parquet { path: path.to_owned(), why: error.to_string() })
 }
 
-fn read(file: File, columns: &[&str], wanted: impl Fn(usize) -> bool) -> Result<Vec<Vec<Cell>>, ParquetError> {
+fn read(
+    file: File,
+    columns: &[&str],
+    wanted: impl Fn(usize) -> bool,
+    mut each: impl FnMut(Vec<Cell>),
+) -> Result<(), ParquetError> {
     let reader = SerializedFileReader::new(file)?;
     let schema = reader.metadata().file_metadata().schema();
     let fields = schema.get_fields().iter();
     let fields = fields.filter(|field| columns.contains(&field.name()));
     let projected = Type::group_type_builder(schema.name()).with_fields(fields.cloned().collect()).build()?;
     let projected = Arc::new(projected);
-    let (mut all, mut first) = (Vec::new(), 0);
+    let mut first = 0;
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         let rows = first..first + group.metadata().num_rows().max(0) as usize;
@@ -47,11 +67,11 @@ fn read(file: File, columns: &[&str], wanted: impl Fn(usize) -> bool) -> Result<
         for (row, cells) in (rows.start..=last).zip(read) {
             let cells = cells?;
             if wanted(row) {
-                all.push(cells_of(&cells, columns)?);
+                each(cells_of(&cells, columns)?);
             }
         }
     }
-    Ok(all)
+    Ok(())
 }
 
 fn cells_of(row: &Row, columns: &[&str]) -> Result<Vec<Cell>, ParquetError> {

@@ -197,7 +197,12 @@ impl Campaign {
         let of_runs = [words(&survey.warnings, survey.runs), words(&survey.before, survey.balanced)].concat();
         let repeats = Repeats::of(&survey.prints, |run| self.draws().part(run));
         let repeats = repeats.map(|repeats| repeats.words(survey.runs));
-        let notes = repeats.into_iter().chain(self.draws().notes());
+        let plan = self.plan();
+        let is_idle = plan.history.is_some() && survey.damaged == 0 && survey.is_sound(plan.out_of_range);
+        let idle = is_idle.then(|| {
+            "[history] grows nothing: no snapshot has damage; give classes `defects`, and history.observed above history.begins_at".to_owned()
+        });
+        let notes = idle.into_iter().chain(repeats).chain(self.draws().notes());
         of_runs.into_iter().chain(notes.map(|note| format!("warning: {note}"))).collect()
     }
 

@@ -2,8 +2,8 @@
 
 use crate::dataset::error::DatasetError;
 use crate::dataset::sheet::{Opened, SheetRun, number, numbers, run_of, spread, words};
-use brinell_io::{Cell, read_records};
-use std::collections::HashMap;
+use brinell_io::{Cell, each_record, read_records};
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 /// How far the envelope's line may be from the frequency in pure rolling: slip.
@@ -36,8 +36,39 @@ pub struct HistorySheet {
     pub assumed: String,
     /// In the order of time.
     pub snapshots: Vec<SheetSnapshot>,
-    /// Size of the damage as a signal tells it; none where nothing estimated it.
-    pub estimates: Vec<SizeEstimate>,
+}
+
+impl HistorySheet {
+    /// In how many snapshots a length is told, and how many intervals hold the true one, and why it is not told.
+    pub fn told(&self) -> String {
+        let (damaged, healthy): (Vec<_>, Vec<_>) =
+            self.snapshots.iter().filter(|s| s.size.is_some()).partition(|s| s.length_mm.is_some());
+        let told = |of: &[&SheetSnapshot]| of.iter().filter(|s| matches!(s.size, Some(Ok(_)))).count();
+        let holds = |s: &&&SheetSnapshot| match (&s.size, s.length_mm) {
+            (Some(Ok([low, _, high])), Some(mm)) => (*low..=*high).contains(&mm),
+            _ => false,
+        };
+        let mut why = BTreeMap::<&str, usize>::new();
+        for reason in damaged.iter().filter_map(|s| s.size.as_ref()?.as_ref().err()) {
+            *why.entry(reason.split(':').next().unwrap_or_default()).or_default() += 1;
+        }
+        let why: Vec<String> = why.iter().map(|(reason, count)| format!("{count} times {reason}")).collect();
+        let mut said = vec![format!(
+            "told in {} of {} snapshots with damage; {} of these intervals hold the true length",
+            told(&damaged),
+            damaged.len(),
+            damaged.iter().filter(holds).count()
+        )];
+        said.extend((!why.is_empty()).then(|| format!("not told: {}", why.join(", "))));
+        let healthy = (told(&healthy), healthy.len());
+        if damaged.is_empty() {
+            said = vec!["no snapshot has damage of known length".into()];
+        }
+        said.extend(
+            (healthy.0 > 0).then(|| format!("told of damage that is not there in {} of {}", healthy.0, healthy.1)),
+        );
+        said.join("; ")
+    }
 }
 
 /// One snapshot.
@@ -61,26 +92,43 @@ pub struct SheetSnapshot {
     pub run: SheetRun,
     /// Whether its signal is shown.
     pub is_shown: bool,
+    /// Lower end of a 95 % interval of the length, the length and the upper end, mm, as the signal tells them, or why it does not; `None` without a signal.
+    pub size: Option<Size>,
 }
 
-/// Length of damage, with a 95 % interval, that was found in a snapshot's signal.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct SizeEstimate {
-    /// Running time of the snapshot, h.
-    pub time_h: f64,
-    /// Lower end, value and upper end, mm.
-    pub length_mm: [f64; 3],
+/// See [`SheetSnapshot::size`].
+pub type Size = Result<[f64; 3], String>;
+
+/// What the length of the damage is estimated from.
+#[derive(Debug)]
+pub struct WholeSignal<'a> {
+    /// All samples from the end of the start on.
+    pub samples: Vec<f64>,
+    /// Hz.
+    pub rate_hz: f64,
+    /// Their unit.
+    pub unit: &'a str,
+    /// Speed of the shaft, r/min, where it is constant.
+    pub speed_rpm: Option<f64>,
+    /// The scenario, TOML; empty where it is held out.
+    pub scenario: String,
 }
 
 /// What is read of a snapshot beside what a contact sheet reads of a run.
 const COLUMNS: &str = "status class snapshot time_h state life_h remaining_life_h damage_begins_h damage_fails_mm outline_s_mm outline_z_mm \
-                       edge_pressure_mpa";
+                       edge_pressure_mpa scenario";
 
-/// The history of machine `machine` of the data set in `folder`; signals of at most `each` snapshots are shown.
+/// The history of machine `machine` of the data set in `folder`; signals of at most `each` snapshots are shown. `size` estimates
+/// the length of the damage from each; one at a time is in memory.
 ///
 /// # Errors
 /// Where there is no such machine, the data set has none, or it cannot be read.
-pub fn history(folder: impl AsRef<Path>, machine: usize, each: usize) -> Result<HistorySheet, DatasetError> {
+pub fn history(
+    folder: impl AsRef<Path>,
+    machine: usize,
+    each: usize,
+    size: impl Fn(WholeSignal) -> Size,
+) -> Result<HistorySheet, DatasetError> {
     let opened = Opened::new(folder.as_ref())?;
     let place = opened.folder.root.display().to_string();
     let Some(histories) = &opened.about.histories else {
@@ -89,47 +137,60 @@ pub fn history(folder: impl AsRef<Path>, machine: usize, each: usize) -> Result<
         )));
     };
     let columns: Vec<&str> = opened.columns().chain(COLUMNS.split(' ')).collect();
-    let mut rows: Vec<HashMap<&str, Cell>> = Vec::new();
+    let mut sheet = HistorySheet { machine, ..HistorySheet::default() };
+    let mut snapshots = Vec::new();
     for path in &opened.parts {
-        let numbers = read_records(path, &["machine"], |_| true)?;
-        let is_wanted =
-            |row: usize| numbers.get(row).and_then(|cells| cells.first()) == Some(&Cell::Whole(machine as i64));
-        let found = read_records(path, &columns, is_wanted)?;
-        rows.extend(found.into_iter().map(|cells| columns.iter().copied().zip(cells).collect()));
+        let rows = read_records(path, &["machine", "defect_on"], |_| true)?;
+        let is_of = |cells: &[Cell]| cells.first() == Some(&Cell::Whole(machine as i64));
+        let on = rows.iter().filter(|cells| is_of(cells)).find_map(|cells| match &cells[1] {
+            Cell::WordsList(on) => on.first().cloned(),
+            _ => None,
+        });
+        sheet.on = on.unwrap_or(sheet.on);
+        let is_wanted = |row: usize| rows.get(row).is_some_and(|cells| is_of(cells));
+        each_record(path, &columns, is_wanted, |cells| {
+            let row: HashMap<&str, Cell> = columns.iter().copied().zip(cells).collect();
+            let mut snapshot = snapshot(&row, &opened.signal, &sheet.on);
+            snapshot.size = whole(&row, &opened, &snapshot.run).map(&size);
+            sheet.class = words(&row, "class");
+            sheet.life_h = number(&row, "life_h");
+            sheet.begins_h = number(&row, "damage_begins_h");
+            sheet.fails_mm = number(&row, "damage_fails_mm");
+            snapshots.push((if let Cell::Whole(k) = row["snapshot"] { k } else { i64::MAX }, snapshot));
+        })?;
     }
-    if rows.is_empty() {
+    if snapshots.is_empty() {
         return Err(DatasetError::Refused(format!(
             "{place}: no rows of machine {machine}; machines of this data set are 0 to {}",
             histories.machines.saturating_sub(1)
         )));
     }
-    rows.sort_by_key(|row| if let Cell::Whole(k) = row["snapshot"] { k } else { i64::MAX });
-    let on = rows.iter().find_map(|row| match &row["defect_on"] {
-        Cell::WordsList(on) => on.first().cloned(),
-        _ => None,
-    });
-    let on = on.unwrap_or_default();
-    let first = &rows[0];
-    let mut sheet = HistorySheet {
-        machine,
-        class: words(first, "class"),
-        signal: opened.signal.clone(),
-        unit: opened.unit.clone(),
-        life_h: number(first, "life_h"),
-        begins_h: number(first, "damage_begins_h"),
-        fails_mm: number(first, "damage_fails_mm"),
-        assumed: histories.assumed.clone(),
-        snapshots: rows.iter().map(|row| snapshot(row, &opened.signal, &on)).collect(),
-        on,
-        ..HistorySheet::default()
-    };
+    snapshots.sort_by_key(|(number, _)| *number);
+    sheet.snapshots = snapshots.into_iter().map(|(_, snapshot)| snapshot).collect();
+    sheet.assumed = histories.assumed.clone();
     let with_signal = |snapshot: &&mut SheetSnapshot| !snapshot.run.stretch.is_empty();
     let mut seen: Vec<&mut SheetSnapshot> = sheet.snapshots.iter_mut().filter(with_signal).collect();
     for k in spread(seen.len(), each) {
         seen[k].is_shown = true;
     }
+    (sheet.signal, sheet.unit) = (opened.signal, opened.unit);
     (sheet.name, sheet.version) = (opened.about.name, opened.about.brinell);
     Ok(sheet)
+}
+
+/// The row's signal from the end of the start on, where it has one.
+fn whole<'a>(row: &HashMap<&str, Cell>, opened: &'a Opened, run: &SheetRun) -> Option<WholeSignal<'a>> {
+    let Cell::Signal(x) = &row[&*opened.signal] else { return None };
+    let rate_hz = 1.0 / run.dt_s;
+    let from = (run.analysed_from_s * rate_hz).round() as usize;
+    let samples = x.iter().skip(from).map(|x| f64::from(*x)).collect();
+    Some(WholeSignal {
+        samples,
+        rate_hz,
+        unit: &opened.unit,
+        speed_rpm: run.speed_rpm,
+        scenario: words(row, "scenario"),
+    })
 }
 
 fn snapshot(row: &HashMap<&str, Cell>, signal: &str, on: &str) -> SheetSnapshot {
@@ -156,5 +217,6 @@ fn snapshot(row: &HashMap<&str, Cell>, signal: &str, on: &str) -> SheetSnapshot 
         level,
         run,
         is_shown: false,
+        size: None,
     }
 }

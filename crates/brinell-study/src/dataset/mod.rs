@@ -39,7 +39,7 @@ mod verify;
 pub use campaign::Campaign;
 pub use columns::DataColumn;
 pub use error::DatasetError;
-pub use history_sheet::{HistorySheet, SheetSnapshot, SizeEstimate, history};
+pub use history_sheet::{HistorySheet, SheetSnapshot, Size, WholeSignal, history};
 pub use merge::{Merged, merge};
 pub use run::{Shard, ShardSummary, run};
 pub use sheet::{Sheet, SheetClass, SheetDefect, SheetRun, sheet};

@@ -35,7 +35,11 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
     // Some of a distribution may fit; of a value that is in the plan nothing does.
     let some = survey.errors.iter().any(|miss| miss.count < survey.runs);
     if let (false, true, Some(last)) = (redraws, some, problems.last_mut()) {
-        last.message += "; give narrower distributions, or `out_of_range = \"redraw\"` (draw such runs again) or \"fail\" (keep them as failed rows)";
+        // A snapshot that is drawn again would be of another machine.
+        let redraw = if draws.plan().history.is_some() { "" } else { "\"redraw\"` (draw such runs again) or `" };
+        last.message += &format!(
+            "; give narrower distributions, or `out_of_range = {redraw}\"fail\"` (keep such runs as failed rows)"
+        );
     }
     Err(plan.problems(problems))
 }

@@ -35,7 +35,8 @@ impl Draws {
         let empty = classes.filter(|(class, drawn)| class.share > 0.0 && drawn.runs == 0);
         empty.map(|(class, _)| {
             let (share, units, unit) = (class.share, self.places.len(), self.plan().unit());
-            format!("class {:?} has no {unit}: its share, {share}, is too small for {units} {unit}s", class.name)
+            let s = if units == 1 { "" } else { "s" };
+            format!("class {:?} has no {unit}: its share, {share}, is too small for {units} {unit}{s}", class.name)
         })
     }
 

@@ -31,6 +31,8 @@ pub struct Survey {
     pub before: Vec<Misses>,
     /// Simulated time of the runs looked at, s.
     pub simulated: f64,
+    /// Of the runs looked at, those with damage.
+    pub damaged: usize,
     /// Samples of the runs looked at.
     pub samples: f64,
     /// Of each run looked at that makes a scenario: what it sets, for [`Repeats::of`](super::Repeats::of).
@@ -92,6 +94,7 @@ impl Survey {
         if let Some(loaded) = loaded {
             let simulation = &loaded.scenario.simulation;
             self.simulated += simulation.duration_s;
+            self.damaged += usize::from(!loaded.scenario.defects.is_empty());
             self.samples += simulation.duration_s * simulation.sample_rate_hz;
             for warning in loaded.warnings {
                 count(&mut self.warnings, without_override(warning), run);
@@ -104,6 +107,7 @@ impl Survey {
         self.unfit += other.unfit;
         self.hopeless += other.hopeless;
         self.simulated += other.simulated;
+        self.damaged += other.damaged;
         self.samples += other.samples;
         self.prints.extend(other.prints);
         for (mine, theirs) in [(&mut self.errors, other.errors), (&mut self.warnings, other.warnings)] {

@@ -6,7 +6,7 @@ use brinell::defect::{Extent, Shape};
 use brinell::derived::Passing;
 use brinell::document::Problem;
 use brinell::model::Model;
-use brinell::scenario::{self, Defect, Scenario, Surface};
+use brinell::scenario::{self, Defect, Scenario, Speed, Surface};
 use brinell::signal::rounded;
 use brinell_damage::plan::{CORNERS, polygons_mm};
 use std::f64::consts::TAU;
@@ -40,6 +40,13 @@ fn healthy(scenario: &Scenario) -> Scenario {
     Scenario { defects: Vec::new(), ..scenario.bearing_of_machine(lead) }
 }
 
+/// End of the start, s, and how often the shaft turns from there on.
+fn turned_after_the_start(scenario: &Scenario, model: &Model) -> [f64; 2] {
+    let start = scenario.settled_s();
+    let angle = |t: f64| model.rotation.at(t).1;
+    [start, (angle(scenario.simulation.duration_s) - angle(start)).abs() / TAU]
+}
+
 /// What the shaft does in a snapshot.
 pub(in crate::design) struct Turning {
     model: Model,
@@ -51,21 +58,34 @@ impl Turning {
         let model =
             Model::new(&healthy(scenario)).map_err(|error| vec![Problem::error("bearing", error.to_string())])?;
         let duration = scenario.simulation.duration_s;
-        let (turns, at) = match slowest {
-            Some(rpm) => (duration * rpm / 60.0, format!(" at the slowest speed, {rpm} r/min")),
-            None => (model.rotation.at(duration).1.abs() / TAU, String::new()),
+        let slowest = slowest.or(scenario.operation.speed_rpm.constant().map(f64::abs));
+        let (turns, needed, at) = match slowest {
+            Some(rpm) => {
+                let mut slow = scenario.clone();
+                slow.operation.speed_rpm = Speed::Constant(rpm);
+                // The end of the start, as of a run that is long enough.
+                slow.simulation.duration_s = f64::INFINITY;
+                let start = slow.settled_s();
+                let needed = start + 60.0 * LEAST_TURNS / rpm;
+                ((duration - start).max(0.0) * rpm / 60.0, needed, format!(" at the slowest speed, {rpm} r/min"))
+            }
+            None => {
+                let [start, turns] = turned_after_the_start(scenario, &model);
+                (turns, start + (duration - start) * LEAST_TURNS / turns, String::new())
+            }
         };
         // What is 8 turns by its decimals is 8 turns.
         if turns >= LEAST_TURNS * (1.0 - 1e-9) {
             return Ok(Self { model });
         }
-        let message = format!("a snapshot of {} turns of the shaft{at}", rounded(turns, 3));
-        let allowed = match turns > 0.0 {
+        let message =
+            format!("a snapshot of {} turns of the shaft from the end of its start on{at}", rounded(turns, 3));
+        let allowed = match needed.is_finite() {
             // Three digits, upwards.
-            true => format!(
-                ">= {} s: {LEAST_TURNS} turns; or a higher speed",
-                (1e3 * duration * LEAST_TURNS / turns).ceil() / 1e3
-            ),
+            true => {
+                let needed = (1e3 * needed).ceil() / 1e3;
+                format!(">= {needed} s: {LEAST_TURNS} turns after the start; or a higher speed")
+            }
             false => format!("a shaft that turns: {LEAST_TURNS} turns a snapshot"),
         };
         Err(vec![Problem::error("simulation.duration_s", message).value(duration.to_string()).allowed(allowed)])
@@ -104,7 +124,10 @@ impl Snapshot {
             }
         };
         let Some(star) = Star::of(&polygons_mm(all, &shape, CORNERS), history.edge, towards_plus) else {
-            return Err(vec![Problem::error("defects", "the shape has no length")]);
+            return Err(vec![
+                Problem::error("defects", "the damage at failure has no length or no depth")
+                    .allowed("a shape with a length, and depth_um above 0"),
+            ]);
         };
         let widest = history.widest_mm.unwrap_or(f64::INFINITY).min(scenario.bearing.axial_reach_mm());
         let outline = star.grown(self.length_mm, self.fails_mm, widest, -all.axial_offset_mm);

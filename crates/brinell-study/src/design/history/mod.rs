@@ -100,7 +100,7 @@ impl History {
         let mut notes = Vec::new();
         if self.scatter == 0.0 && self.machines > 1 {
             notes.push(format!(
-                "history.scatter = 0: the lengths of all {} machines follow the law to the last digit, and whoever fits it to one knows the others; \
+                "history.scatter = 0: the lengths of all {} machines follow the law to the last digit, so that a few of them tell the remaining life exactly; \
                  history.scatter = 0.5 makes increments that differ by a factor of 1.6",
                 self.machines
             ));

@@ -68,7 +68,7 @@ fn keys<K: Keys>(k: &mut K, h: &mut History, has: bool) {
     k.only_where(
         key("exponent", "of the time since damage began").above(0.0).to(100.0),
         has && is_power,
-        "`law` is \"power\"",
+        if has { "`law` is \"power\"" } else { CASE },
         &mut exponent,
     );
     k.only_where(
@@ -76,7 +76,7 @@ fn keys<K: Keys>(k: &mut K, h: &mut History, has: bool) {
             .above(0.0)
             .to(100.0),
         has && !is_power,
-        "`law` is \"exponential\" or \"logistic\"",
+        if has { "`law` is \"exponential\" or \"logistic\"" } else { CASE },
         &mut rate,
     );
     h.steepness = if is_power { exponent } else { rate };

@@ -119,7 +119,12 @@ impl Checker<'_> {
             }
             let sets = |class: &Class| class.vary.sets(&path);
             if self.plan.vary.sets(&path) || self.plan.classes.iter().any(sets) {
-                self.add(&at, "", "drawn once for each machine too; a key varies in one place".into(), "");
+                self.add(
+                    &at,
+                    "",
+                    "drawn once for each machine too".into(),
+                    "a key varies in one place: [history.snapshot], [vary] or a class",
+                );
             }
         }
         self.one_sense();
