@@ -127,7 +127,7 @@ def calibrate(
     model_uncertainty_percent : float
         What levels of the model may differ by from a machine's, one sigma.
     events_only : bool
-        Whether the measured signal becomes the spacing of its events alone, from which the length of damage follows, and
+        Whether the measured signal becomes the spacing of its events alone, from which the damage's length follows, and
         not levels, which the way to the sensor changes.
     budget : int, optional
         Runs at most; 30 a key by default.

@@ -31,7 +31,11 @@ pub fn calibrate(
         Ok(found) => Ok(Outcome::new(plan, &runs, found)?),
         // The runs made are in the ledger.
         Err(Unfit::NoValue { name, .. }) if is_spacing(&name) && plan.targets.len() > 1 => {
-            calibrate(&Arc::new(plan.without(&name)), load, runs.ledger, threads, listener)
+            let mut outcome = calibrate(&Arc::new(plan.without(&name)), load, runs.ledger, threads, listener)?;
+            outcome.warnings.push(format!(
+                "warning: {name} is left out: no run spread over the bounds has two events in each pass that are clear, or they are too short"
+            ));
+            Ok(outcome)
         }
         Err(Unfit::Interrupted) => Err(Unfinished::Unfit { unfit: Unfit::Interrupted, reasons: Vec::new() }),
         Err(unfit) => Err(Unfinished::Unfit { unfit, reasons: runs.reasons() }),

@@ -108,11 +108,6 @@ impl FitPlan {
             plan.targets.remove(at);
             plan.target_units.remove(at);
         }
-        if let Some(pattern) = &mut plan.pattern {
-            pattern.notes.push(format!(
-                "{name} is left out: no run spread over the bounds has two events in each pass that are clear, or they are too short"
-            ));
-        }
         plan
     }
 
