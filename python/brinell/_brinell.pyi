@@ -187,7 +187,7 @@ def calibrate(
     fit: Sequence[tuple[str, float, float, bool]],
     targets: Sequence[tuple[str, float, float]],
     measured: npt.ArrayLike | None,
-    signal: tuple[float, str, str | None, float],
+    signal: tuple[float, str, str | None, float, bool],
     seed: int,
     budget: int | None,
     jobs: int | None,

@@ -99,6 +99,7 @@ def calibrate(
     measured: Signal | None = None,
     axis: Literal["x", "y"] | None = None,
     model_uncertainty_percent: float = 5.0,
+    events_only: bool = False,
     budget: int | None = None,
     seed: int = 1,
     jobs: int | None = None,
@@ -119,12 +120,15 @@ def calibrate(
     targets : mapping of str to (float, float), optional
         Value and standard uncertainty (one sigma) by name, as in the tables of sweeps (``sensor_ax.rms``), SI.
     measured : Signal, optional
-        A measured acceleration, which becomes targets itself: levels, RMS, kurtosis, frequencies of defects. Its rate
-        is the scenario's.
+        A measured acceleration, which becomes targets itself: levels, RMS, kurtosis, frequencies of defects, and how
+        far apart the two events of each pass are. Its rate is the scenario's.
     axis : {"x", "y"}, optional
         The sensor's in the simulation; the one nearer the load by default.
     model_uncertainty_percent : float
         What levels of the model may differ by from a machine's, one sigma.
+    events_only : bool
+        Whether the measured signal becomes the spacing of its events alone, from which the damage's length follows, and
+        not levels, which the way to the sensor changes.
     budget : int, optional
         Runs at most; 30 a key by default.
     seed : int
@@ -191,7 +195,7 @@ def calibrate(
             raise ValueError("measured: its rate_hz and unit are to be given, for the file states none")
         samples, unit = samples_of(measured.values, "measured.values"), measured.unit
         rate = number_of(measured.rate_hz, "measured.rate_hz", "samples a second")
-    signal = (rate, unit, axis, model_uncertainty_percent)
+    signal = (rate, unit, axis, model_uncertainty_percent, events_only)
     seed, budget = whole_of(seed, "seed", "0 or more"), None if budget is None else whole_of(budget, "budget", "runs at most")
     native = _brinell.calibrate(base._native, keys, wanted, samples, signal, seed, budget, jobs_of(jobs), progress, folder)
     report = native.report()

@@ -134,6 +134,36 @@ fn prop_a_measured_signals_levels_do_not_depend_on_the_bounds_of_the_speed() {
 }
 
 #[test]
+fn prop_the_length_of_damage_comes_back_from_its_events_whatever_the_way_to_the_sensor() {
+    let folder = folder();
+    let at = "defects.0.shape.rectangle.length_mm";
+    let own = "--set simulation.duration_s=0.6 --set operation.speed_rpm=2000 --set defects.0.depth_um=40";
+    let path = "--set sensor.path=[{frequency_hz=2700.0,damping_ratio=0.04,gain=-0.6}]";
+    brinell(
+        folder.path(),
+        &typed(&format!("run base.toml {own} {path} --set {at}=3.1 --no-report --no-healthy -q -o rig")),
+    )
+    .exits(0);
+    let fit = format!("{own} --fit {at}=1.5:4.5 --measured rig -o cal --budget 14");
+    brinell(folder.path(), &call(&typed(&format!("{fit} --events-only")))).exits(0).says(&[
+        "1 key to 1 target:",
+        "signature.event_spacing_bpfo = ",
+        "The targets are met",
+    ]);
+    let found = json(&folder.path().join("cal/calibrate.json"));
+    let [low, high] = ["low", "high"].map(|end| found["keys"][0][end].as_f64().unwrap());
+    assert!(low < 3.1 && 3.1 < high && high - low < 0.6, "{found:#}");
+    assert_eq!(found["targets"][0]["unit"], "s");
+    // Damage as short as the contact has one event.
+    brinell(folder.path(), &typed(&format!("run base.toml {own} --set {at}=0.1 --no-report --no-healthy -q -o short")))
+        .exits(0);
+    let short = format!("{own} --fit {at}=1.5:4.5 --measured short --events-only -o none");
+    brinell(folder.path(), &call(&typed(&short)))
+        .exits(2)
+        .complains(&["there are no two events in each pass to fit to: no second event is clear"]);
+}
+
+#[test]
 fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
     let folder = folder();
     let args = call(&typed(

@@ -10,18 +10,13 @@ use brinell::bearing::KnownBearing;
 use brinell::bearing::rating::static_rating;
 use brinell::document;
 use brinell::document::Loaded;
-use brinell::edge::inset;
+use brinell::edge::{inset, shortest_event, way_between_passes};
 use brinell::scenario::{Bearing, Scenario, Surface};
 use brinell::signal::estimate::{MOST_FREEDOM, NORMAL};
 use brinell::signal::{EventSpacing, Interval, Rotation, event_spacing};
-use std::f64::consts::PI;
 
 /// Loads over the static load rating that machines run at: least, usual and most.
 const LOADS: [f64; 3] = [0.02, 0.06, 0.2];
-/// An event is as short as this share of the way from the edge to it.
-const SHORTEST: f64 = 0.35;
-/// Clarity of a spacing below which none is told: of simulated damage, one in twenty is another spacing than that of its ends (`validation/size`).
-const CLEAR: f64 = 0.12;
 /// Events farther apart than this share of the elements' spacing may be those of damage that takes the rest of it: the interval holds both. Below, that would leave elements
 /// hardly any raceway.
 const AMBIGUOUS: f64 = 0.35;
@@ -55,11 +50,11 @@ pub(crate) fn length(
 
 fn told((x, fs): (&[f64], f64), lead: &Family, (rotation, shaft): (Option<&Rotation>, f64), way: &Way) -> Length {
     let speed = way.spacing * lead.frequency;
-    let shortest = SHORTEST * way.insets[1] / speed;
+    let shortest = shortest_event(way.insets[1], speed);
     let mm = |seconds: f64| 1e3 * seconds * speed;
     let rotation = rotation.map(|rotation| (rotation, shaft));
     let found = event_spacing(x, fs, (1.0 / lead.frequency, shortest), rotation).map_err(|error| error.to_string())?;
-    let Some(EventSpacing { seconds, uncertainty, .. }) = found.filter(|found| found.clarity >= CLEAR) else {
+    let Some(EventSpacing { seconds, uncertainty, .. }) = found.filter(EventSpacing::is_clear) else {
         let least = OUTLINE[1] * (mm(2.5 / fs).max(4e3 * shortest * speed) + 2e3 * way.insets[1]);
         return Err(format!(
             "no second event stands out beside the one of each pass: the damage is shorter than about {least:.1} mm, its edges are not steep, or noise hides one of them"
@@ -74,11 +69,8 @@ fn told((x, fs): (&[f64], f64), lead: &Family, (rotation, shaft): (Option<&Rotat
 
 /// A bearing by what lengths on its surfaces follow from.
 struct Bodies {
-    count: f64,
-    /// Pitch diameter, and the part of the elements' diameter that is across the axis, m.
-    pitch: f64,
-    across: f64,
-    diameter: f64,
+    /// Of its contacts, off the radial plane, rad.
+    angle: f64,
     /// What its contacts follow from.
     scenario: Scenario,
 }
@@ -118,19 +110,16 @@ impl Bodies {
         let scenario = document::read(&text, &[]).map_err(|problems| {
             problems.first().map_or_else(String::new, |problem| format!("the bearing makes no contacts: {problem}"))
         })?;
-        let (scenario, b) = (scenario.scenario.clone(), &scenario.scenario.bearing);
-        let [pitch, diameter] = [b.pitch_diameter_mm, b.roller_diameter_mm].map(|mm| 1e-3 * mm);
-        let across = diameter * angle_deg.to_radians().cos();
-        Ok(Self { count: b.rollers_per_row as f64, pitch, across, diameter, scenario })
+        Ok(Self { angle: angle_deg.to_radians(), scenario: scenario.scenario })
     }
 
     fn way(mut self, component: Component) -> Result<Way, String> {
-        let (spacing, surface) = match component {
-            Component::OuterRace => (PI * (self.pitch + self.across) / self.count, Surface::OuterRaceway),
-            Component::InnerRace => (PI * (self.pitch - self.across) / self.count, Surface::InnerRaceway),
-            // It passes one race and the other in each turn.
-            _ => (0.5 * PI * self.diameter, Surface::Roller(1)),
+        let surface = match component {
+            Component::OuterRace => Surface::OuterRaceway,
+            Component::InnerRace => Surface::InnerRaceway,
+            _ => Surface::Roller(1),
         };
+        let spacing = way_between_passes(&self.scenario.bearing, self.angle, surface);
         let rating = static_rating(&self.scenario.bearing).load;
         let mut insets = [0.0; 3];
         for (inset_of, share) in insets.iter_mut().zip(LOADS) {

@@ -58,7 +58,7 @@ fn wrong(argument: &str, error: CalibrateError) -> PyErr {
 }
 
 /// Fits keys, each `(path, low, high, log)`, to targets, each `(name, value, standard uncertainty)`, and to a measured
-/// signal with `(rate in Hz, unit, axis, per cent that the model may differ by)`. `progress` gets the runs that are
+/// signal with `(rate in Hz, unit, axis, per cent that the model may differ by, whether to its events alone)`. `progress` gets the runs that are
 /// over, and of how many at most. With a `folder`, finished runs are in its journal and not made again.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "keywords, given by the Python around it")]
@@ -68,7 +68,7 @@ pub(crate) fn calibrate<'py>(
     fit: Vec<(String, f64, f64, bool)>,
     targets: Vec<(String, f64, f64)>,
     measured: Option<Samples<'py>>,
-    signal: (f64, String, Option<String>, f64),
+    signal: (f64, String, Option<String>, f64, bool),
     seed: i128,
     budget: Option<i128>,
     jobs: Option<isize>,
@@ -104,7 +104,8 @@ pub(crate) fn calibrate<'py>(
         let measured = Measured { x: &slice(&x), rate, unit: &unit };
         let pattern = py
             .detach(|| Pattern::new(&measured, (&own.scenario, &keys), (&middle.scenario, &simulation), axis, percent));
-        let mut pattern = pattern.map_err(|error| wrong("measured", error))?;
+        let only = |pattern: Pattern| if signal.4 { pattern.events_only() } else { Ok(pattern) };
+        let mut pattern = pattern.and_then(only).map_err(|error| wrong("measured", error))?;
         pattern.notes.push(format!("{} samples at {rate} Hz, against {}", measured.x.len(), pattern.channel));
         Ok::<_, PyErr>(pattern)
     });

@@ -27,6 +27,8 @@ const BLOCKS: (usize, usize) = (6, 60);
 const SURE: f64 = 5.0;
 /// From the second event to the first of the next period is the period less the spacing, but for this share of it.
 const REST: f64 = 0.05;
+/// Clarity of a spacing below which none is told: of simulated damage, one in twenty is another spacing than that of its ends (`validation/size`).
+const CLEAR: f64 = 0.12;
 /// Standard deviations of the smoothing's bell that are summed.
 const BELL: f64 = 4.0;
 /// Samples of the envelope in one standard deviation of its smoothing.
@@ -41,6 +43,13 @@ pub struct EventSpacing {
     pub uncertainty: f64,
     /// Height of the peak above its foot over the envelope's variance, less the share of the next peak in it: 0 where another lag is as likely, 1 at the most.
     pub clarity: f64,
+}
+
+impl EventSpacing {
+    /// Whether the spacing is to be told.
+    pub fn is_clear(&self) -> bool {
+        self.clarity >= CLEAR
+    }
 }
 
 /// The events of a signal `x` sampled at `fs` Hz that repeat every `period` s, where two are told; each as short as `shortest` s. `rotation` follows a speed that varies,

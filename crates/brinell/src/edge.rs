@@ -8,8 +8,12 @@
 use crate::defect::{Side, relative_radius};
 use crate::error::Error;
 use crate::model::Model;
-use crate::scenario::{Scenario, Surface};
+use crate::scenario::{Bearing, Scenario, Surface};
 use crate::statics::static_load_zone;
+use std::f64::consts::PI;
+
+/// An event is as short as this share of the way from the edge to it.
+const SHORTEST: f64 = 0.35;
 
 /// The contact that damage of a surface is met by; of an element's, the one that deforms more.
 fn side_of(surface: Surface) -> Side {
@@ -33,6 +37,22 @@ fn approach(scenario: &Scenario) -> Result<f64, Error> {
 pub fn inset(scenario: &Scenario, surface: Surface) -> Result<f64, Error> {
     let radius = relative_radius(&scenario.bearing, side_of(surface));
     Ok((2.0 * radius * approach(scenario)? / (2.0 * scenario.contact.exponent - 1.0)).sqrt())
+}
+
+/// How short the events are, s, that elements of this [`inset`] (m) make which roll along the surface at `speed` m/s: what a search for them smooths over.
+pub fn shortest_event(inset: f64, speed: f64) -> f64 {
+    SHORTEST * inset / speed
+}
+
+/// How far along the damaged surface it is from one element to the next, m, the contacts being `angle` rad off the radial plane; of an element's, from one race to the other.
+pub fn way_between_passes(b: &Bearing, angle: f64, surface: Surface) -> f64 {
+    let [pitch, diameter] = [b.pitch_diameter_mm, b.roller_diameter_mm].map(|mm| 1e-3 * mm);
+    let (across, count) = (diameter * angle.cos(), b.rollers_per_row as f64);
+    match surface {
+        Surface::OuterRaceway => PI * (pitch + across) / count,
+        Surface::InnerRaceway => PI * (pitch - across) / count,
+        Surface::Roller(_) => 0.5 * PI * diameter,
+    }
 }
 
 #[cfg(test)]
@@ -84,6 +104,19 @@ mod tests {
         };
         let before = force(edge - 3.0 * reach);
         places.iter().map(|u| force(edge + u) / before).collect()
+    }
+
+    #[test]
+    fn analytic_elements_that_do_not_slip_roll_as_fast_along_every_surface() {
+        for name in ["6205", "NU206"] {
+            let scenario = loaded(name, 0.1);
+            let kinematics = Model::new(&scenario).unwrap().kinematics(100.0);
+            let speed = |on| way_between_passes(&scenario.bearing, 0.0, on) * kinematics.defect_frequency(on).1;
+            let outer = speed(Surface::OuterRaceway);
+            for other in [Surface::InnerRaceway, Surface::Roller(1)] {
+                assert!((speed(other) / outer - 1.0).abs() < 1e-9, "{name} {other:?}: {} {outer}", speed(other));
+            }
+        }
     }
 
     #[test]

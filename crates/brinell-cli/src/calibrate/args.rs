@@ -14,8 +14,8 @@ use std::path::PathBuf;
     the columns of `brinell sweep`: sensor_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units. \
     Extremes, such as row1.largest_outer_force, scatter too, though a run cannot say by how much: give them an uncertainty that covers it.\n\n\
     A measured signal (--measured) becomes targets itself: its octave levels and its envelope spectrum's at the first five harmonics of each \
-    defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they are significant. --model-uncertainty is \
-    what a model may differ by from a machine, and is added to what the signal's own scatter says. Its rate must be the scenario's.\n\n\
+    defect's frequency, in decibels; RMS and kurtosis; the defects' frequencies where they are significant; and how far apart the two events of each pass are where that is clear. --model-uncertainty is \
+    what a model may differ by from a machine in all but the two last, and is added to what the signal's own scatter says. Its rate must be the scenario's.\n\n\
     The search: a quarter of the runs is spread over the bounds (Latin hypercube), a fifth follows a particle swarm, the rest goes downhill \
     from the best places (Levenberg and Marquardt); two to four runs a key are kept for the Jacobian at the best point. Differences are taken over a \
     tenth of a key's range; over a fifth where runs are uncertain themselves, and up to two fifths where a key's effect is not significant against that: impacts amplify round-off, so that an \
@@ -58,6 +58,9 @@ pub(crate) struct CalibrateArgs {
     /// Standard uncertainty of the model's levels against a machine's [default: 5]
     #[arg(long, value_name = "PERCENT", requires = "measured", allow_negative_numbers = true)]
     pub(crate) model_uncertainty: Option<f64>,
+    /// Fit to the spacing of the two events of each pass alone, from which the damage's length follows, and not to levels, which the way to the sensor changes
+    #[arg(long, requires = "measured")]
+    pub(crate) events_only: bool,
     /// Runs at most [default: 30 a key]
     #[arg(short, long, value_name = "N")]
     pub(crate) budget: Option<usize>,

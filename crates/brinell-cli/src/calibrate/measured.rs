@@ -35,7 +35,8 @@ pub(super) fn pattern(
     let own = source.load(&[], true)?.scenario;
     let (axis, percent) = (args.axis.as_deref(), args.model_uncertainty.unwrap_or(MODEL_UNCERTAINTY));
     let pattern = Pattern::new(&measured, (&own, keys), (scenario, simulation), axis, percent);
-    let mut pattern = pattern.map_err(|error| {
+    let only = |pattern: Pattern| if args.events_only { pattern.events_only() } else { Ok(pattern) };
+    let mut pattern = pattern.and_then(only).map_err(|error| {
         Failure::Usage(match error {
             CalibrateError::ModelUncertainty(percent) => format!("--model-uncertainty {percent}: {error}"),
             CalibrateError::Axis(_) => format!("--{error}"),

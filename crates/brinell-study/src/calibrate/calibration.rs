@@ -2,6 +2,7 @@
 
 use super::outcome::Outcome;
 use super::runs::{Load, Points, Runs, Unfinished};
+use super::spacing::is_spacing;
 use super::{FitPlan, Unfit, fit};
 use crate::listener::Listener;
 use crate::runner::Ledger;
@@ -28,6 +29,14 @@ pub fn calibrate(
     }
     match found {
         Ok(found) => Ok(Outcome::new(plan, &runs, found)?),
+        // The runs made are in the ledger.
+        Err(Unfit::NoValue { name, .. }) if is_spacing(&name) && plan.targets.len() > 1 => {
+            let mut outcome = calibrate(&Arc::new(plan.without(&name)), load, runs.ledger, threads, listener)?;
+            outcome.warnings.push(format!(
+                "warning: {name} is left out: no run spread over the bounds has two events in each pass that are clear, or they are too short"
+            ));
+            Ok(outcome)
+        }
         Err(Unfit::Interrupted) => Err(Unfinished::Unfit { unfit: Unfit::Interrupted, reasons: Vec::new() }),
         Err(unfit) => Err(Unfinished::Unfit { unfit, reasons: runs.reasons() }),
     }

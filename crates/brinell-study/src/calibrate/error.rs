@@ -46,6 +46,9 @@ pub enum CalibrateError {
         /// Of the scenario, Hz.
         simulated: f64,
     },
+    /// A measured signal that is to be met by its events alone, with what was seen of them.
+    #[error("there are no two events in each pass to fit to: {0}")]
+    NoEvents(String),
     /// A measured signal that says nothing.
     #[error(transparent)]
     Signal(#[from] SignalError),

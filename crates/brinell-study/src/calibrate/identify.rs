@@ -16,6 +16,10 @@ use nalgebra::{DMatrix, DVector};
 /// An interval that covers so much of a key's range says nothing.
 #[doc(hidden)]
 pub const MOST: f64 = 0.75;
+/// A key that moves by less than this share of the key that moves most along a free direction is not free by it: the bounds of the other one limit both.
+const LIMITED: f64 = 0.4;
+/// Variance over a range where nothing is known but the bounds.
+const UNIFORM: f64 = 1.0 / 12.0;
 /// Information along a direction, relative to the largest, below which it is round-off.
 const ROUND_OFF: f64 = 1e-10;
 
@@ -158,7 +162,9 @@ fn covariance(information: &[(f64, Direction)], least: f64) -> DMatrix<f64> {
             if product.abs() < 1e-8 {
                 return 0.0;
             }
-            product / known.max(least)
+            let largest = d.vector.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            let is_limited = d.vector[a].abs().max(d.vector[b].abs()) < LIMITED * largest;
+            product / known.max(if is_limited { largest * largest / UNIFORM } else { least })
         };
         information.iter().map(part).sum::<f64>()
     })
@@ -232,6 +238,15 @@ mod tests {
         assert!(found.correlation[(0, 1)] < -0.99999);
         assert!(found.correlation[(0, 2)].abs() < 1e-6);
         assert!(found.directions[0].is_determined() && found.directions[1].is_determined());
+    }
+
+    /// r depends on 10 a + 0.2 b: b, which is free within its range, moves a by a fiftieth of its range.
+    #[test]
+    fn analytic_a_free_key_moves_another_no_further_than_its_own_bounds() {
+        let found = identify(&[0.0], &DMatrix::from_row_slice(1, 2, &[10.0, 0.2]), &[0.0; 2]);
+        let expected = (0.01 + 0.02 * 0.02 / 12.0_f64).sqrt();
+        assert!((found.deviations[0] / expected - 1.0).abs() < 1e-3, "{:?}", found.deviations);
+        assert!(found.deviations[1].is_infinite());
     }
 
     #[test]

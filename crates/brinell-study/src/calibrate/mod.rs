@@ -23,6 +23,7 @@ mod runs;
 pub mod search;
 #[doc(hidden)]
 pub mod signature;
+mod spacing;
 mod target;
 
 pub use calibration::calibrate;

@@ -1,6 +1,7 @@
-//! A measured signal as targets: its levels, RMS and kurtosis, and the defects' frequencies where they are significant.
+//! A measured signal as targets: its levels, RMS and kurtosis, the defects' frequencies where they are significant, and how far apart the events of a pass are where that is clear.
 
 use super::signature::{Level, Signature, decibels};
+use super::spacing::{Spacing, is_spacing};
 use super::{CalibrateError, Key, Target};
 use brinell::analysis::{Quantity as Dimension, Unit};
 use brinell::bearing::Kinematics;
@@ -40,6 +41,7 @@ pub struct Measured<'a> {
 #[derive(Debug, Clone)]
 pub struct Pattern {
     signature: Signature,
+    spacings: Vec<Spacing>,
     /// Which of the filtered channels represents the sensor.
     pub(super) axis: usize,
     /// Its name.
@@ -91,8 +93,20 @@ impl Pattern {
         targets((scenario, simulation), (x, measured.rate), axis, Speeds { own, bounds }, share)
     }
 
-    /// The levels of a run's signal as numbers of its row.
-    pub(super) fn quantities(&self, x: &[f64]) -> Vec<Quantity> {
+    /// The same with the spacing of events alone, which the way from the bearing to the sensor does not change.
+    ///
+    /// # Errors
+    /// Where none is clear.
+    pub fn events_only(mut self) -> Result<Self, CalibrateError> {
+        self.targets.retain(|target| is_spacing(&target.name));
+        match self.targets.is_empty() {
+            true => Err(CalibrateError::NoEvents(self.notes.join("; "))),
+            false => Ok(self),
+        }
+    }
+
+    /// The levels of a run's signal, and the spacing of its events, as numbers of its row.
+    pub(super) fn quantities(&self, x: &[f64], simulation: &Simulation) -> Vec<Quantity> {
         // A run too short for a signature has none, and its row says so by their absence.
         let levels = self.signature.of(x).unwrap_or_default();
         let one = |l: Level| Quantity {
@@ -101,12 +115,15 @@ impl Pattern {
             value: Some(l.decibels),
             spread: Spread::Interval(Interval::normal(l.decibels, l.uncertainty)),
         };
-        levels.into_iter().map(one).collect()
+        let (model, rate) = (simulation.model(), simulation.sample_rate());
+        let kinematics = model.kinematics(model.rotation.at(0.0).0);
+        let spacing = |s: &Spacing| s.quantity(x, rate, kinematics.defect_frequency(s.on).1);
+        levels.into_iter().map(one).chain(self.spacings.iter().map(spacing)).collect()
     }
 
     /// Everything that the levels of a run depend on beside its scenario, as text.
     pub(super) fn describe(&self) -> String {
-        format!("{} {}", self.channel, self.signature.describe())
+        format!("{} {} {:?}", self.channel, self.signature.describe(), self.spacings)
     }
 }
 
@@ -154,7 +171,7 @@ fn targets(
     let band = Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate);
     // Runs are analysed from half-way on at the latest.
     let analysed = (ANALYSED * simulation.samples() as f64) as usize;
-    let (found, notes) = combs((x, rate, band), &lines, speeds.range(), analysed)?;
+    let (found, mut notes) = combs((x, rate, band), &lines, speeds.range(), analysed)?;
     // Where the speed is not known the signal's lines tell it, but for slip.
     let told = nearest(&found);
     let turning = speeds.bounds.and(told).unwrap_or(speeds.expected());
@@ -186,7 +203,22 @@ fn targets(
             targets.push(Target { name: format!("defect{}.frequency", k + 1), value, uncertainty });
         }
     }
-    Ok(Pattern { signature, axis, channel, targets, notes })
+    let mut spacings = Vec::new();
+    for &(name, _, frequency, _) in &found {
+        let damaged = scenario.defects.iter().map(|defect| defect.on).find(|on| line_name(&kinematics, *on) == name);
+        let spacing = damaged.and_then(|on| Spacing::new(scenario, on, (name, frequency)));
+        match spacing.as_ref().and_then(|spacing| spacing.target(x, rate, frequency)) {
+            Some(target) => {
+                targets.push(target);
+                spacings.extend(spacing);
+            }
+            None => notes.push(format!(
+                "no second event is clear beside the one of each pass at {}: the signal says nothing of the damage's length by it",
+                name.to_uppercase()
+            )),
+        }
+    }
+    Ok(Pattern { signature, spacings, axis, channel, targets, notes })
 }
 
 /// A comb of lines found: name, over pure rolling, Hz, and standard uncertainty of its mean, Hz.

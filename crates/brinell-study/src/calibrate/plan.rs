@@ -1,6 +1,7 @@
 //! What is fitted to what, before anything runs.
 
 use super::fit::least_budget;
+use super::spacing::is_spacing;
 use super::target::check;
 use super::{CalibrateError, Key, Pattern, Settings, Target};
 use crate::campaign::{fingerprint, in_json};
@@ -14,7 +15,7 @@ use serde_json::Value;
 const RUNS_PER_KEY: usize = 30;
 
 /// A calibration before it runs.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct FitPlan {
     /// What is fitted.
     pub keys: Vec<Key>,
@@ -87,14 +88,27 @@ impl FitPlan {
         if budget < least {
             return Err(CalibrateError::Budget { budget, least, keys: keys.len() });
         }
-        // What a signal says of a band or a line.
-        let of_signature = |name: &str| name.starts_with("signature.").then_some("dB");
+        // What a signal says of events, a band or a line.
+        let of_signature = |name: &str| match name.starts_with("signature.") {
+            true => Some(if is_spacing(name) { "s" } else { "dB" }),
+            false => None,
+        };
         let of_run = |name: &str| Some(&*numbers.iter().find(|q| q.name == name)?.unit).filter(|unit| *unit != "1");
         let unit = |target: &Target| of_signature(&target.name).or_else(|| of_run(&target.name)).unwrap_or("");
         let target_units = targets.iter().map(|target| unit(target).to_owned()).collect();
         let unit = |key: &Key| middle.provenance_of(&key.name).map_or("", |p| p.unit);
         let units = keys.iter().map(unit).collect();
         Ok(Self { settings: Settings { seed, budget }, keys, units, targets, target_units, pattern, middle })
+    }
+
+    /// The same without the spacing `name`, which no run has.
+    pub(super) fn without(&self, name: &str) -> Self {
+        let mut plan = self.clone();
+        if let Some(at) = plan.targets.iter().position(|target| target.name == name) {
+            plan.targets.remove(at);
+            plan.target_units.remove(at);
+        }
+        plan
     }
 
     /// What distinguishes this calibration from others. A larger budget resumes the same one.

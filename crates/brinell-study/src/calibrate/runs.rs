@@ -90,10 +90,11 @@ impl Observer for Sensor<'_> {
 }
 
 impl Beside<RunnerError> for Sensor<'_> {
-    /// The levels from when the run had settled.
+    /// What its signal says from when the run had settled.
     fn finished(self: Box<Self>, finished: &RunResult) -> Result<Vec<Quantity>, RunnerError> {
         let settled = finished.findings.from * finished.simulation.sample_rate();
-        Ok(self.pattern.quantities(self.signal.get(settled.ceil() as usize..).unwrap_or(&[])))
+        let signal = self.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
+        Ok(self.pattern.quantities(signal, &finished.simulation))
     }
 }
 

@@ -5,6 +5,7 @@
 //! search is a function of its seed and the answers alone: asked again with the same answers, it asks for the same
 //! points. That is how an interrupted one goes on.
 
+use super::target::MISSING;
 use argmin::core::{CostFunction, Error, Executor, PopulationState};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
@@ -205,20 +206,20 @@ pub fn around(place: &[f64], steps: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// Slopes of the residuals along each axis, from the answers to [`around`]: between both sides, or from the middle
-/// where one failed; zero where both did.
+/// where one failed or has not the number that the middle has; zero where both did.
 pub fn slopes(place: &[f64], middle: &[f64], points: &[Vec<f64>], answers: &[Option<Vec<f64>>]) -> DMatrix<f64> {
     let mut slopes = DMatrix::zeros(middle.len(), place.len());
     for axis in 0..place.len() {
-        let side = |k: usize| {
-            let found = answers[2 * axis + k].as_deref();
-            (points[2 * axis + k][axis], found.unwrap_or(middle), found.is_some())
-        };
-        let ((low, below, has_low), (high, above, has_high)) = (side(0), side(1));
-        let low = if has_low { low } else { place[axis] };
-        let high = if has_high { high } else { place[axis] };
-        if high > low {
-            for row in 0..middle.len() {
-                slopes[(row, axis)] = (above[row] - below[row]) / (high - low);
+        for row in 0..middle.len() {
+            // That a number is lost is no slope of it.
+            let known = |of: &&[f64]| of[row] != MISSING || middle[row] == MISSING;
+            let side = |k: usize| match answers[2 * axis + k].as_deref().filter(known) {
+                Some(found) => (points[2 * axis + k][axis], found[row]),
+                None => (place[axis], middle[row]),
+            };
+            let ((low, below), (high, above)) = (side(0), side(1));
+            if high > low {
+                slopes[(row, axis)] = (above - below) / (high - low);
             }
         }
     }
@@ -239,5 +240,21 @@ pub fn local<'b>(ask: &RefCell<&'b mut Ask<'b>>, start: &[f64], residuals: usize
     match problem.halt.get() {
         Some(halt) => Err(halt),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_a_number_that_neighbours_lose_has_the_slope_of_the_side_that_has_it() {
+        let place = [0.5];
+        let points = around(&place, &[0.1]);
+        let answers = [Some(vec![MISSING, 1.0, MISSING, 2.0]), Some(vec![3.0, 2.0, MISSING, MISSING])];
+        let slopes = slopes(&place, &[1.0, 1.5, 0.0, MISSING], &points, &answers);
+        for (row, expected) in [20.0, 5.0, 0.0, 40.0].into_iter().enumerate() {
+            assert!((slopes[(row, 0)] - expected).abs() < 1e-9, "{row}: {slopes}");
+        }
     }
 }

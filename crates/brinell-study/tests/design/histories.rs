@@ -17,7 +17,7 @@ speed_rpm = 6000.0
 load_n = [300.0, 0.0]
 [simulation]
 laws = "li2023"
-duration_s = 0.1
+duration_s = 0.12
 "#;
 
 const PLAN: &str = r#"base = "base.toml"
@@ -329,8 +329,8 @@ fn regress_what_does_not_fit_a_history_is_refused_with_what_would_do() {
         assert!(found.contains(says), "{is}: {found}");
     }
     let draws = super::draws(PLAN);
-    let found = draws.scenario(&BASE.replace("0.1", "0.05"), 0).unwrap_err().0;
+    let found = draws.scenario(&BASE.replace("0.12", "0.05"), 0).unwrap_err().0;
     let found = found[0].to_string().replace("\n  allowed", "; allowed");
-    assert!(found.contains("simulation.duration_s = 0.05: a snapshot of 5 turns of the shaft; allowed: >= 0.08 s: 8 turns; or a higher speed"), "{found}");
+    assert!(found.contains("simulation.duration_s = 0.05: a snapshot of 2 turns of the shaft from the end of its start on at the slowest speed, 6000 r/min; allowed: >= 0.11 s: 8 turns after the start; or a higher speed"), "{found}");
     assert!(draws.notes()[0].starts_with("history.scatter = 0: the lengths of all 6 machines follow the law"));
 }
