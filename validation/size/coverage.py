@@ -3,7 +3,7 @@
     python3 validation/size/coverage.py BRINELL FOLDER [--runs 400] [--seed 3] [--jobs N] [--set known|new]
 
 Draws runs over bearing, surface, speed, load, length, outline (rectangle, ragged, scan), depth, way to the sensor, noise and sample rate; makes them in FOLDER, where finished ones stay;
-analyses each by bearing name and speed alone; and prints the tables of the book (docs/src/results/size.md). `known` are the bearings that the method's constants were set on, `new` others.
+analyses each by bearing name and speed alone; and prints the tables of the book (docs/src/results/size-table.md). `known` are the bearings that the method's constants were set on, `new` others.
 Seed 3 and the new bearings are the book's. 400 runs take some fifteen minutes of CPU. Needs NumPy and SciPy.
 """
 
@@ -19,13 +19,14 @@ from pathlib import Path
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
+from scipy.stats import beta
 
 BEARINGS = {
     "known": ["6205", "6208", "6304", "6010", "NU206", "N208", "NU305", "NJ207", "6203", "6206", "6308", "6004", "NU204", "N306", "NU210", "NN3007"],
     "new": ["6002", "6207", "6209", "6303", "6310", "6007", "N205", "NU307", "N207", "NJ306", "NU208", "NU310"],
 }
 BINS = [0.5, 0.8, 1.2, 2, 3, 5, 8, 12]
-# Share of the elements' spacing that damage takes at most.
+# Share of the elements' spacing that damage takes at most: beyond 0.65 the method takes it for shorter damage, and says so.
 LONGEST = 0.6
 
 
@@ -148,7 +149,10 @@ def row(name, runs):
     held = sum(run["size"]["low"] <= run["length"] <= run["size"]["high"] for run in told)
     bias = np.median([run["size"]["value"] / run["length"] for run in told])
     wide = np.median([(run["size"]["high"] - run["size"]["low"]) / run["size"]["value"] for run in told])
-    return f"| {name} | {len(runs)} | {len(told)} | {held} ({100 * held / len(told):.0f} %) | {100 * (bias - 1):+.0f} % | {100 * wide:.0f} % |"
+    low = beta.ppf(0.025, held, len(told) - held + 1) if held else 0
+    high = beta.ppf(0.975, held + 1, len(told) - held) if held < len(told) else 1
+    share = f"{held}: {100 * held / len(told):.0f} % ({100 * low:.0f} to {100 * high:.0f} %)"
+    return f"| {name} | {len(runs)} | {len(told)} | {share} | {100 * (bias - 1):+.0f} % | {100 * wide:.0f} % |"
 
 
 def main():
@@ -165,23 +169,24 @@ def main():
     with ThreadPoolExecutor(args.jobs) as pool:
         runs = list(pool.map(lambda k: one(k, args, known), range(args.runs)))
     (args.folder / "runs.json").write_text(json.dumps(runs, indent=1))
-    print("| | runs | told | interval holds the length | median of value over length | median width over value |\n| --- | ---: | ---: | ---: | ---: | ---: |")
+    print("| | runs | told | interval holds the length (95 % of the share) | median of value over length | median width over value |\n| --- | ---: | ---: | ---: | ---: | ---: |")
     print(row("all", runs))
     for low, high in zip(BINS, BINS[1:]):
         print(row(f"{low} to {high} mm", [run for run in runs if low <= run["length"] < high]))
+    print(row("ragged and scan", [run for run in runs if run["outline"] != "rectangle"]))
     for key, values in [("on", ["outer-raceway", "inner-raceway", "roller"]), ("outline", ["rectangle", "ragged", "scan"])]:
         for value in values:
             print(row(value, [run for run in runs if run[key] == value]))
     for key, low, high, words in [("rpm", 300, 700, "300 to 700 r/min"), ("rpm", 700, 3600, "700 to 3600 r/min"), ("snr", 0, 10, "noise 0 to 10 dB below"), ("snr", 10, 30, "noise 10 to 30 dB below")]:
         print(row(words, [run for run in runs if low <= run[key] < high]))
-    print("\nWhere it is not told:")
-    for reason, count in Counter(run["reason"].split(":")[0] for run in runs if run["reason"]).most_common():
+    print("\nWhere it is not told:\n")
+    for reason, count in Counter(run["reason"].split(":")[0].split(" s of signal")[-1] for run in runs if run["reason"]).most_common():
         print(f"- {count}: {reason}")
-    print("\nWhere the interval does not hold the length:")
+    print("\nWhere the interval does not hold the length:\n")
     for k, run in enumerate(runs):
         size = run["size"]
         if size and not size["low"] <= run["length"] <= size["high"]:
-            print(f"- run {k}: {run['bearing']}, {run['on']}, {run['outline']}, {run['length']:.2f} mm, {run['depth']:.0f} um deep, {run['rpm']:.0f} r/min; told {size['low']:.2f} to {size['high']:.2f} mm")
+            print(f"- run {k}: {run['bearing']}, {run['on']}, {run['outline']}, {run['length']:.2f} mm, {run['depth']:.0f} µm deep, {run['rpm']:.0f} r/min; told {size['low']:.2f} to {size['high']:.2f} mm")
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ fn prop_the_interval_holds_the_length_of_damage_that_was_simulated() {
         assert!(low < length && length < high, "{bearing} {on}: {found}");
         assert!((value / length - 1.0).abs() < 0.15, "{bearing} {on}: {found}");
         let text = found["verdict"]["text"].as_str().unwrap();
-        assert!(text.contains("mm along the rolling direction, 95 % within"), "{text}");
+        assert!(text.contains("mm along the rolling direction, 95 % of simulated damage within"), "{text}");
     }
 }
 
@@ -61,9 +61,9 @@ fn prop_the_interval_holds_the_length_of_damage_that_was_simulated() {
 fn prop_what_cannot_be_told_has_its_reason() {
     let folder = run("6205", "outer-raceway", 900, 0.5);
     for (given, reason) in [
-        (&["--bearing", "6205"][..], "no second event stands out beside the one of each pass"),
+        (&["--bearing", "6205"][..], "one event stands out, and not the two of entry and exit"),
         (&["--bpfo", "3.585x", "--bpfi", "5.415x"], "--rollers, --pitch, --diameter"),
-        (&["--bearing", "NU206"], "no damage of a race or of an element was found"),
+        (&["--bearing", "NU206"], "the verdict names no damaged race or element"),
     ] {
         let found = size(folder.path(), given);
         assert_eq!(found["size"]["length_mm"], Value::Null, "{given:?}: {found}");

@@ -101,9 +101,10 @@ impl Diagnosis {
     /// The length of the damage in words, where it was asked.
     fn size_text(&self) -> Option<String> {
         Some(match self.size.as_ref()? {
-            Ok((mm, of)) => {
-                format!("Size: {mm:.1} mm along the rolling direction, 95 % within {:.1} to {:.1} mm.", of.low, of.high)
-            }
+            Ok(told) => format!(
+                "Size: {:.1} mm along the rolling direction, 95 % of simulated damage within {:.1} to {:.1} mm, if shorter than {:.1} mm.",
+                told.value, told.interval.low, told.interval.high, told.most
+            ),
             Err(why) => format!("Size: cannot tell: {why}."),
         })
     }

@@ -18,7 +18,11 @@ objects! {
         #[serde(skip_serializing_if = "Option::is_none")] against: Option<Beside<'a>>,
     }
     /// The length of the damage, or why it is not known.
-    Size<'a> { length_mm: Option<Written>, #[serde(skip_serializing_if = "Option::is_none")] reason: Option<&'a str> }
+    Size<'a> {
+        length_mm: Option<Written>,
+        #[serde(skip_serializing_if = "Option::is_none")] way_mm: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")] if_shorter_than_mm: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")] reason: Option<&'a str> }
     /// Of several bearings.
     Several<'a> {
         brinell: &'static str, file: FileOf<'a>, verdict: Value, leads: Option<&'a str>, bearings: Vec<Value>,
@@ -137,7 +141,9 @@ impl Diagnosis {
     pub fn size_json(&self) -> Option<Value> {
         let size = self.size.as_ref()?;
         let told = Size {
-            length_mm: size.as_ref().ok().map(|(value, of)| Written::new(*value, Some((of.low, of.high)))),
+            length_mm: size.as_ref().ok().map(|t| Written::new(t.value, Some((t.interval.low, t.interval.high)))),
+            way_mm: size.as_ref().ok().map(|t| t.way),
+            if_shorter_than_mm: size.as_ref().ok().map(|t| t.most),
             reason: size.as_ref().err().map(String::as_str),
         };
         serde_json::to_value(told).ok()

@@ -56,7 +56,7 @@ pub use measurement::{Measurement, Stated, made_by, names_of_runs, run_in, state
 pub use problem::{NoRateStated, Problem, Question};
 pub use request::{GivenSpeed, Like, MOST, Request};
 pub use short::{Short, is_too_short};
-pub use size::Length;
+pub use size::{Length, Told};
 pub use speed::Turning;
 pub use stretch::Rest;
 pub use together::together;

@@ -13,18 +13,31 @@ use brinell::document::Loaded;
 use brinell::edge::{inset, shortest_event, way_between_passes};
 use brinell::scenario::{Bearing, Scenario, Surface};
 use brinell::signal::estimate::{MOST_FREEDOM, NORMAL};
-use brinell::signal::{EventSpacing, Interval, Rotation, event_spacing};
+use brinell::signal::{EventSpacing, Interval, Rotation, SignalError, event_spacing};
 
 /// Loads over the static load rating that machines run at: least, usual and most.
 const LOADS: [f64; 3] = [0.02, 0.06, 0.2];
 /// Events farther apart than this share of the elements' spacing may be those of damage that takes the rest of it: the interval holds both. Below, that would leave elements
 /// hardly any raceway.
 const AMBIGUOUS: f64 = 0.35;
-/// The damage over the way between its events, [`inset`] counted in, as simulated damage of many outlines has it: least, middle and most in 95 %.
-const OUTLINE: [f64; 3] = [0.87, 1.0, 1.36];
+/// The damage over the way between its events, [`inset`] counted in, as simulated ragged damage and scans have it (rectangles up to 1.2): least, middle and most in 95 %.
+const OUTLINE: [f64; 3] = [0.9, 1.03, 1.7];
 
-/// The length of damage along the rolling direction, with its 95 % interval, mm; or why it cannot be told.
-pub type Length = Result<(f64, Interval), String>;
+/// The length of damage along the rolling direction, or why it cannot be told.
+pub type Length = Result<Told, String>;
+
+/// A length, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Told {
+    /// The length.
+    pub value: f64,
+    /// Its 95 % interval.
+    pub interval: Interval,
+    /// The way that the element goes between the two events.
+    pub way: f64,
+    /// Damage longer than this would show the events of shorter damage, and is not thought of.
+    pub most: f64,
+}
 
 /// What is measured along.
 struct Way {
@@ -42,7 +55,7 @@ pub(crate) fn length(
     (request, asked, run): (&Request, Option<&Asked>, Option<&Loaded>),
 ) -> Length {
     let Some(lead) = analysis.causes().find(|family| family.component != Component::Cage) else {
-        return Err("no damage of a race or of an element was found".into());
+        return Err("the verdict names no damaged race or element, so that there is nothing to measure".into());
     };
     let way = Bodies::of(request, asked, run)?.way(lead.component)?;
     told((x, fs), lead, (rotation, analysis.shaft), &way)
@@ -53,18 +66,26 @@ fn told((x, fs): (&[f64], f64), lead: &Family, (rotation, shaft): (Option<&Rotat
     let shortest = shortest_event(way.insets[1], speed);
     let mm = |seconds: f64| 1e3 * seconds * speed;
     let rotation = rotation.map(|rotation| (rotation, shaft));
-    let found = event_spacing(x, fs, (1.0 / lead.frequency, shortest), rotation).map_err(|error| error.to_string())?;
+    let too_short = |error| match error {
+        SignalError::TooShort { need, .. } => {
+            format!("{:.2} s of signal are needed, and there are {:.2} s", need as f64 / fs, x.len() as f64 / fs)
+        }
+        error => error.to_string(),
+    };
+    let found = event_spacing(x, fs, (1.0 / lead.frequency, shortest), rotation).map_err(too_short)?;
     let Some(EventSpacing { seconds, uncertainty, .. }) = found.filter(EventSpacing::is_clear) else {
         let least = OUTLINE[1] * (mm(2.5 / fs).max(4e3 * shortest * speed) + 2e3 * way.insets[1]);
         return Err(format!(
-            "no second event stands out beside the one of each pass: the damage is shorter than about {least:.1} mm, its edges are not steep, or noise hides one of them"
+            "in each pass of an element one event stands out, and not the two of entry and exit: the damage may be short (below about {least:.1} mm) or long, its edges ragged or not steep, or the \
+             signal too noisy"
         ));
     };
     let of = |k: usize, seconds: f64| OUTLINE[k] * (mm(seconds) + 2e3 * way.insets[k]);
     let aside = NORMAL * uncertainty;
     let longest = if seconds * lead.frequency > AMBIGUOUS { 1.0 / lead.frequency - seconds } else { seconds };
     let interval = Interval { low: of(0, seconds - aside), high: of(2, longest + aside), freedom: MOST_FREEDOM };
-    Ok((of(1, seconds), interval))
+    let most = of(1, (1.0 - AMBIGUOUS) / lead.frequency).max(interval.high);
+    Ok(Told { value: of(1, seconds), interval, way: mm(seconds), most })
 }
 
 /// A bearing by what lengths on its surfaces follow from.

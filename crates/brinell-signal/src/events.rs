@@ -28,7 +28,7 @@ const SURE: f64 = 5.0;
 /// From the second event to the first of the next period is the period less the spacing, but for this share of it.
 const REST: f64 = 0.05;
 /// Clarity of a spacing below which none is told: of simulated damage, one in twenty is another spacing than that of its ends (`validation/size`).
-const CLEAR: f64 = 0.12;
+const CLEAR: f64 = 0.15;
 /// Standard deviations of the smoothing's bell that are summed.
 const BELL: f64 = 4.0;
 /// Samples of the envelope in one standard deviation of its smoothing.

@@ -55,5 +55,5 @@ fn size(of: WholeSignal) -> Size {
     let Some(told) = found.bearings.into_iter().next().and_then(|bearing| bearing.size) else {
         return Err("nothing is found".into());
     };
-    told.map(|(mm, interval)| [interval.low, mm, interval.high])
+    told.map(|told| [told.interval.low, told.value, told.interval.high])
 }
