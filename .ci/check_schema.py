@@ -57,6 +57,7 @@ for path in sys.argv[2:]:
     for table, key, value in WRONG[schema["title"]]:
         wrong = copy.deepcopy(document)
         (wrong.setdefault(table, {}) if table else wrong)[key] = value
-        if validator.is_valid(wrong):
+        # What one plan may not have another has: histories have machines.
+        if wrong != document and validator.is_valid(wrong):
             sys.exit(f"{path}: the schema accepts {table}.{key} = {value!r}")
     print(f"{path}: fits the schema")
