@@ -151,21 +151,25 @@ impl Bodies {
     }
 }
 
-/// A ball bearing of these diameters in mm, as a scenario file says it: what no more is said of is taken for one.
+/// A ball bearing of these diameters in mm: what no more is said of is taken for one.
 fn ball(count: usize, pitch: f64, diameter: f64) -> String {
+    sizes("ball", count, pitch, diameter)
+}
+
+/// A bearing's elements and raceways, as a scenario file says them.
+fn sizes(element: &str, count: usize, pitch: f64, diameter: f64) -> String {
     let (inner, outer) = (pitch - diameter, pitch + diameter);
     format!(
-        "element = \"ball\"\nrollers_per_row = {count}\npitch_diameter_mm = {pitch}\nroller_diameter_mm = {diameter}\n\
+        "element = \"{element}\"\nrollers_per_row = {count}\npitch_diameter_mm = {pitch}\nroller_diameter_mm = {diameter}\n\
          inner_raceway_diameter_mm = {inner}\nouter_raceway_diameter_mm = {outer}"
     )
 }
 
 /// The same of any bearing.
 fn as_text(b: &Bearing) -> String {
-    let own = ball(b.rollers_per_row, b.pitch_diameter_mm, b.roller_diameter_mm);
     if b.has_balls() {
-        return own;
+        return ball(b.rollers_per_row, b.pitch_diameter_mm, b.roller_diameter_mm);
     }
-    let length = format!("element = \"roller\"\nrows = {}\nroller_length_mm = {}", b.rows, b.roller_length_mm);
-    own.replace("element = \"ball\"", &length)
+    let own = sizes("roller", b.rollers_per_row, b.pitch_diameter_mm, b.roller_diameter_mm);
+    format!("{own}\nrows = {}\nroller_length_mm = {}", b.rows, b.roller_length_mm)
 }

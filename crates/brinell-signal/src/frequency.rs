@@ -354,7 +354,7 @@ impl Comb {
 }
 
 /// The middle value, the upper of two; reorders.
-fn median(values: &mut [f64]) -> f64 {
+pub(crate) fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -83,12 +83,13 @@ pub(super) fn analyze(
             "none of the {failed} {what}s could be analysed; the first, {name}: {why}"
         )));
     }
+    let records = json_of(&rows, &paths);
     let trend = times.map(|times| {
         let names: Vec<String> = rows.iter().map(|row| row.name.clone()).collect();
-        Trend::of(times, &names, &json_of(&rows, &paths), &args.trend.limit)
+        Trend::of(times, &names, &records, &args.trend.limit)
     });
     let trend = trend.transpose()?;
-    let written = write(args, &rows, &paths, trend.as_ref(), &earlier)?;
+    let written = write(args, &rows, records, trend.as_ref(), &earlier)?;
     if let Some(trend) = trend.as_ref().filter(|_| !args.quiet) {
         trend.warnings.iter().for_each(|warning| complain!("warning: {warning}"));
     }
@@ -141,11 +142,11 @@ fn json_of(rows: &[Row], paths: &[String]) -> Vec<Value> {
 fn write(
     args: &AnalyzeArgs,
     rows: &[Row],
-    paths: &[String],
+    records: Vec<Value>,
     trend: Option<&Trend>,
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let mut json = json!({ "brinell": brinell::VERSION, "records": json_of(rows, paths) });
+    let mut json = json!({ "brinell": brinell::VERSION, "records": records });
     if let Some(trend) = trend {
         json["trend"] = trend.to_json();
     }

@@ -1,5 +1,7 @@
 //! Values over time.
 
+use crate::frequency;
+
 /// Values over time: times ascend.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Course {
@@ -48,8 +50,7 @@ impl Course {
     }
 }
 
+/// 0 of none.
 pub(super) fn median(values: &[f64]) -> f64 {
-    let mut values = values.to_vec();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
+    if values.is_empty() { 0.0 } else { frequency::median(&mut values.to_vec()) }
 }
