@@ -343,7 +343,7 @@ def schema(*, plan: bool = False) -> dict[str, Any]:
     >>> sorted(brinell.schema()["properties"])[:3]
     ['bearing', 'cage', 'contact']
     >>> brinell.schema(plan=True)["required"]
-    ['base', 'runs']
+    ['base']
     """
     loaded: dict[str, Any] = json.loads(_brinell.schema(plan))
     return loaded
