@@ -12,6 +12,9 @@ import brinell
 matplotlib.use("Agg")
 warnings.simplefilter("error")
 
+# Results carry the date, and tests hold files against each other.
+os.environ["SOURCE_DATE_EPOCH"] = "1700000000"
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 

@@ -4,7 +4,9 @@ import csv
 import dataclasses
 import json
 import re
+import pathlib
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -17,6 +19,22 @@ def run(command, *args, code=0, cwd=None):
     done = subprocess.run([command, *map(str, args)], capture_output=True, text=True, cwd=cwd)
     assert done.returncode == code, done.stderr
     return done
+
+
+def test_xval_the_wheel_carries_the_command(command, examples, tmp_path):
+    own = [sys.executable, "-m", "brinell"]
+    told = run(*own, "--version").stdout
+    assert told == run(command, "--version").stdout
+    # What pip installs beside Python.
+    assert run(pathlib.Path(sys.executable).parent / "brinell", "--version").stdout == told
+    args = ["frequencies", "--speed", "1800", "6205"]
+    assert run(*own, *args).stdout == run(command, *args).stdout
+    assert "speed_rpm" in run(*own, "check", examples / "rectangle.toml", "--set", "operation.speed_rpm=-inf", code=2).stderr
+    run(*own, "run", examples / "rectangle.toml", "--set", "simulation.duration_s=0.05", "-o", tmp_path / "out", "-q")
+    result = brinell.simulate(examples / "rectangle.toml", settings={"simulation.duration_s": 0.05})
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    assert summary["made_by"] == result.summary["made_by"]
+    assert f"commit {summary['made_by']['commit']}" in told.replace("commit unknown", "commit None")
 
 
 def test_xval_signals_and_summary_have_the_bits_of_the_command(command, examples, tmp_path):

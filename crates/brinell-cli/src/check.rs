@@ -5,7 +5,7 @@ mod lamina;
 mod machine;
 
 use crate::args::CheckArgs;
-use crate::failure::{Failure, print_problems};
+use crate::failure::{ExitCode, Failure, print_problems};
 use crate::files;
 use crate::say::{self, one_line, say, short};
 use crate::sweep::duration;
@@ -17,7 +17,6 @@ use brinell::plausibility;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_study::runner::forecast;
-use std::process::ExitCode;
 
 pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let loaded = files::scenario(&args.scenario.scenario, &args.scenario.set, false)?;

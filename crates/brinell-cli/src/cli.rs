@@ -81,6 +81,8 @@ pub(crate) enum Command {
     Schema(SchemaArgs),
     /// Open a page of results in the browser
     Open(crate::open::OpenArgs),
+    /// Print what to cite, as BibTeX: the program and the paper whose model it implements
+    Cite,
     /// Print the script that completes this command's words in a shell
     Completions(crate::shell::CompletionsArgs),
     /// Write the manual pages of this command and its subcommands into a folder

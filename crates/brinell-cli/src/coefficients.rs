@@ -1,11 +1,12 @@
 //! `brinell coefficients`: a bearing as rotor programs take it.
 
 use crate::args::ScenarioArgs;
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files::{Source, make_folder, safe_name};
 use crate::results::{COEFFICIENTS, Results};
 use crate::say::{document, one_line, plain_number, say, short, significant, twelve_digits, wrote};
 use brinell::coefficients::{Coefficients, Push, coefficients, force_over_cage_angle};
+use brinell::made_by::MadeBy;
 use brinell::model::Model;
 use brinell::scenario::{Choice, ModelKind, Scenario};
 use brinell_io::{Cells, Column, Table, atomic_prepare};
@@ -14,7 +15,6 @@ use clap::Args;
 use serde_json::json;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 #[derive(Debug, Args)]
 #[command(after_help = "VALUES are a list (500,1000), a range (0:5000:500 is FROM:TO:STEP), or both mixed.\n\n\
@@ -131,7 +131,7 @@ pub(crate) fn run(args: &CoefficientsArgs) -> Result<ExitCode, Failure> {
     }
     let degrees = twelve_digits(direction[1].atan2(direction[0]).to_degrees());
     let listing = json!({
-        "scenario": s.name, "version": brinell::VERSION, "files": null, "load_direction_deg": degrees, "meaning": MEANING,
+        "scenario": s.name, "version": brinell::VERSION, "made_by": MadeBy::of_scenario(&s.to_toml()), "files": null, "load_direction_deg": degrees, "meaning": MEANING,
         "rows": rows.iter().map(|row| {
             COLUMNS.iter().zip(row.numbers()).map(|(name, x)| ((*name).to_owned(), x.into())).collect()
         }).collect::<Vec<serde_json::Map<_, _>>>(),

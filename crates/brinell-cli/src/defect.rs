@@ -5,7 +5,7 @@ mod preview;
 mod table;
 
 use crate::args::{ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs, Written};
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files::Source;
 use crate::say::{self, say, short, twelve_digits};
 use brinell::defect::Extent;
@@ -18,7 +18,6 @@ use brinell::signal::objects;
 use brinell_damage::plan::{self, Contour};
 use entry::{chosen, print, print_entry};
 use preview::preview;
-use std::process::ExitCode;
 
 /// Most points a shape is written with.
 const MOST_POINTS: usize = 100_000;

@@ -1,6 +1,6 @@
 //! `brinell diff`: what differs between two scenarios, key by key, defaults included.
 
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files;
 use crate::results::scenario_file;
 use crate::say::{self, one_line, say};
@@ -10,7 +10,6 @@ use brinell_study::campaign::{Differing, differing};
 use clap::Args;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 #[derive(Debug, Args)]
 #[command(

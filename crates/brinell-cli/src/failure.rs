@@ -5,12 +5,19 @@ use brinell::document::{Problem, on_one_line, one_line, render_diagnostics};
 use brinell::model::ModelError;
 use brinell_io::IoError;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
-/// Exit code of bad input.
-pub(crate) const BAD_INPUT: u8 = 2;
-/// Exit code of an interrupted run: 128 + SIGINT, as shells have it.
-pub(crate) const INTERRUPTED: u8 = 130;
+/// What the command ends with: the number is for the process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ExitCode(pub(crate) u8);
+
+impl ExitCode {
+    pub(crate) const SUCCESS: Self = Self(0);
+    /// The run failed, or a result could not be written.
+    pub(crate) const FAILURE: Self = Self(1);
+    pub(crate) const BAD_INPUT: Self = Self(2);
+    /// 128 + SIGINT, as shells have it.
+    pub(crate) const INTERRUPTED: Self = Self(130);
+}
 
 impl From<brinell_measured::Problem> for Failure {
     fn from(problem: brinell_measured::Problem) -> Self {
@@ -49,20 +56,22 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// [`BAD_INPUT`], or 1 for a failed run.
+    /// Of bad input, or of a failed run.
     pub(crate) fn code(&self) -> ExitCode {
-        ExitCode::from(match self {
-            Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => BAD_INPUT,
-            Self::Run(error) if error.is_bad_input() => BAD_INPUT,
+        match self {
+            Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => ExitCode::BAD_INPUT,
+            Self::Run(error) if error.is_bad_input() => ExitCode::BAD_INPUT,
             // The place is wrong, not the writing.
             Self::Write(
                 IoError::NoFolder { .. }
                 | IoError::NotAFileName { .. }
                 | IoError::Busy { .. }
                 | IoError::Journal { .. },
-            ) => BAD_INPUT,
-            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Output(_) => 1,
-        })
+            ) => ExitCode::BAD_INPUT,
+            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Output(_) => {
+                ExitCode::FAILURE
+            }
+        }
     }
 
     /// On one line, as tables and reasons have it.
@@ -115,8 +124,8 @@ mod tests {
     #[test]
     fn regress_a_place_without_permission_is_a_failed_write() {
         let (path, source) = (|| PathBuf::from("out"), || ErrorKind::PermissionDenied.into());
-        let code = |error: IoError| format!("{:?}", Failure::from(error).code());
-        assert_eq!(code(IoError::NotPermitted { path: path(), source: source() }), format!("{:?}", ExitCode::from(1)));
-        assert_eq!(code(IoError::NotAFileName { path: path() }), format!("{:?}", ExitCode::from(BAD_INPUT)));
+        let code = |error: IoError| Failure::from(error).code();
+        assert_eq!(code(IoError::NotPermitted { path: path(), source: source() }), ExitCode::FAILURE);
+        assert_eq!(code(IoError::NotAFileName { path: path() }), ExitCode::BAD_INPUT);
     }
 }

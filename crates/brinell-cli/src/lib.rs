@@ -8,6 +8,7 @@ mod args;
 mod calibrate;
 mod campaign;
 mod check;
+mod cite;
 mod cli;
 mod coefficients;
 mod compare;
@@ -33,11 +34,12 @@ mod sweep;
 mod version;
 
 use brinell::kernel::Kernel;
+use brinell::made_by;
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
-use failure::{BAD_INPUT, Failure};
+use failure::{ExitCode, Failure};
 use std::ffi::OsString;
-use std::process::ExitCode;
+pub use version::COMMIT;
 
 /// Runs the command with these arguments, the first of which is the program's name, and prints to the process's
 /// standard output and error.
@@ -47,7 +49,8 @@ use std::process::ExitCode;
 ///
 /// It is for a process of its own: it raises that process's limit of open files to what the system allows, ignores
 /// SIGXFSZ, and some commands listen for Ctrl-C, the second of which ends the process.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
+    COMMIT.map(made_by::built_from);
     hear_of_full_files();
     brinell_damage::keep_tables();
     allow_open_files();
@@ -55,7 +58,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(cli) => code_of(chosen_kernel().and_then(|()| run_command(cli.command))),
         Err(words) if words.use_stderr() => {
             let _ = words.print();
-            ExitCode::from(BAD_INPUT)
+            ExitCode::BAD_INPUT
         }
         // Help, or the version.
         Err(words) => {
@@ -64,11 +67,12 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         }
     };
     match say::arrived() {
-        Ok(()) => code,
+        Err(error) if code == ExitCode::SUCCESS => code_of(Err(Failure::Output(error))).0,
         Err(error) => {
-            let unwritten = code_of(Err(Failure::Output(error)));
-            if code == ExitCode::SUCCESS { unwritten } else { code }
+            Failure::Output(error).print();
+            code.0
         }
+        Ok(()) => code.0,
     }
 }
 
@@ -127,6 +131,7 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Schema(args) => look_up::schema(&args),
         Command::Diff(args) => diff::diff(&args),
         Command::Open(args) => open::open(&args),
+        Command::Cite => cite::cite(),
         Command::Completions(args) => shell::completions(Cli::command(), &args),
         Command::Man(args) => shell::man(Cli::command(), &args),
     }

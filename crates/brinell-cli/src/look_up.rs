@@ -1,7 +1,7 @@
 //! The commands that look things up: `bearing`, `frequencies`, `schema`.
 
 use crate::args::{BearingCommand, FrequenciesArgs, SchemaArgs};
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files;
 use crate::say::{self, document, plain_number, say};
 use brinell::analysis::{DefectOrders, NamedBearing};
@@ -12,7 +12,6 @@ use brinell::scenario::{Element, Scenario};
 use brinell_measured::Called;
 use serde_json::Value;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 pub(crate) fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
     let schema = match (args.plan, args.summary) {

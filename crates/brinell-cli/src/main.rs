@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    brinell_cli::run(std::env::args_os())
+    brinell_cli::run(std::env::args_os()).into()
 }

@@ -1,11 +1,10 @@
 //! `brinell open`, and `run --open`: a page of results in the browser.
 
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::results::PAGES;
 use crate::say::say;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Duration;
 
 /// How long the system's opener may take to say that it cannot. One that still runs has the page.

@@ -9,7 +9,7 @@ mod task;
 mod words;
 
 use crate::args::RunArgs;
-use crate::failure::{Failure, INTERRUPTED};
+use crate::failure::{ExitCode, Failure};
 use crate::files::safe_name;
 use crate::inputs::Inputs;
 use crate::progress::Progress;
@@ -18,7 +18,6 @@ use crate::say::{complain, document, say};
 use crate::stop::stop_flag;
 use brinell::simulate::End;
 use std::path::Path;
-use std::process::ExitCode;
 use task::{Task, earlier, execute, ready};
 
 pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -54,7 +53,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     match done.end {
         End::Failed(error) => Err(Failure::Run(error)),
-        End::Stopped if done.interrupted => Ok(ExitCode::from(INTERRUPTED)),
+        End::Stopped if done.interrupted => Ok(ExitCode::INTERRUPTED),
         _ => Ok(ExitCode::SUCCESS),
     }
 }

@@ -1,6 +1,6 @@
 //! `brinell completions` and `brinell man`: what a shell and `man` need, made from the definitions of the command line.
 
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files::make_folder;
 use crate::say::{document, say};
 use brinell_io::atomic_write;
@@ -8,7 +8,6 @@ use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Where a script goes:\n  \

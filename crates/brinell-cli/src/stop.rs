@@ -1,6 +1,6 @@
 //! Ctrl-C.
 
-use crate::failure::{Failure, INTERRUPTED};
+use crate::failure::{ExitCode, Failure};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -10,7 +10,7 @@ pub(crate) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::clone(&stop);
     ctrlc::set_handler(move || {
         if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
+            std::process::exit(i32::from(ExitCode::INTERRUPTED.0));
         }
     })
     .map_err(|error| Failure::Usage(format!("cannot listen for Ctrl-C: {error}")))?;

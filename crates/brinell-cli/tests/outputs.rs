@@ -1,6 +1,6 @@
 //! What `brinell run` leaves in its folder and says on the terminal.
 
-use crate::common::{SHORT, brinell, brinell_reading, command, csv, files, folder_with, json, typed};
+use crate::common::{Call, SHORT, brinell, brinell_reading, command, csv, files, folder_with, json, typed};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -74,6 +74,39 @@ fn prop_the_same_scenario_gives_the_same_bytes_and_its_written_form_the_same_sig
         let head: &[u8] = if name.ends_with(".svg") { b"<svg" } else { b"\x89PNG\r\n\x1a\n" };
         assert!(bytes.starts_with(head), "{name}");
     }
+}
+
+#[test]
+fn prop_results_say_what_made_them() {
+    let folder = folder_with("s.toml", SHORT);
+    let here = folder.path();
+    let run = |out: &str, date: Option<&str>| {
+        let args = ["run", "s.toml", "-o", out, "--signals", "none", "--quiet"];
+        let mut command = command(here, &args);
+        match date {
+            Some(date) => command.env("SOURCE_DATE_EPOCH", date),
+            None => command.env_remove("SOURCE_DATE_EPOCH"),
+        };
+        let call: Call = command.output().unwrap().into();
+        call.exits(0);
+        json(&here.join(out).join("summary.json"))["made_by"].clone()
+    };
+    // date -u -d @951782400
+    let made = run("a", Some("951782400"));
+    assert_eq!(made["date"], "2000-02-29T00:00:00Z");
+    let text = fs::read_to_string(here.join("a/scenario.toml")).unwrap();
+    assert_eq!(made["scenario_sha256"], brinell::made_by::digest(&text));
+    let told = brinell(here, &["--version"]).exits(0).out;
+    assert!(told.contains(&format!("kernel {}", made["kernel"].as_str().unwrap())), "{told}");
+    assert!(told.contains(&format!("commit {}", made["commit"].as_str().unwrap_or("unknown"))), "{told}");
+    let page = fs::read_to_string(here.join("a/report.html")).unwrap();
+    for part in ["2000-02-29 00:00:00 UTC", made["scenario_sha256"].as_str().unwrap(), made["kernel"].as_str().unwrap()]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    // By the clock, without it.
+    let now = run("b", None)["date"].as_str().unwrap().to_owned();
+    assert!(now > "2026".to_owned() && now.len() == 20, "{now}");
 }
 
 #[test]

@@ -154,3 +154,23 @@ fn regress_what_is_no_page_is_not_opened() {
     }
     assert_eq!(files(here), ["s.toml"]);
 }
+
+#[test]
+fn prop_what_to_cite_is_that_of_the_citation_file() {
+    let told = brinell(Path::new("."), &["cite"]).exits(0).keeps_quiet().out;
+    let file = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../CITATION.cff")).unwrap();
+    let of_file = |key: &str| {
+        let lines = file.lines().filter_map(|line| line.trim().trim_start_matches("- ").strip_prefix(key));
+        lines.map(|value| value.trim().to_owned()).collect::<Vec<String>>()
+    };
+    assert!(told.contains(&format!("version = {{{}}}", of_file("version:")[0])), "{told}");
+    for doi in of_file("doi:") {
+        assert!(told.contains(&format!("{{{doi}}}")), "{doi}: {told}");
+    }
+    assert!(told.contains(&format!("title   = {{{}}}", of_file("title:")[1])), "{told}");
+    let names = of_file("family-names:").into_iter().zip(of_file("given-names:"));
+    let authors: Vec<String> = names.map(|(family, given)| format!("{family}, {given}")).collect();
+    assert!(authors.len() == 6 && told.contains(&authors.join(" and ")), "{told}");
+    // One entry closes before the next begins.
+    assert_eq!(told.matches('{').count(), told.matches('}').count());
+}

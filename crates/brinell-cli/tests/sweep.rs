@@ -252,7 +252,7 @@ fn prop_a_sweep_has_one_kernel() {
         command.env("BRINELL_KERNEL", kernel).output().unwrap().into()
     };
     sweep("portable", "2900,3000", &[]).exits(0);
-    assert_eq!(json(&folder.path().join("out/sweep.json"))["kernel"], "portable");
+    assert_eq!(json(&folder.path().join("out/sweep.json"))["made_by"]["kernel"], "portable");
     let before = fs::read(folder.path().join("out/journal.jsonl")).unwrap();
     for (values, more) in
         [("2900,3000", &[][..]), ("2900,3000,3100", &["--extend"]), ("2900,3000,3100", &["--extend", "--dry-run"])]

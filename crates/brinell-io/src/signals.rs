@@ -13,6 +13,8 @@ pub mod keys {
     pub const SCENARIO: &str = "brinell.scenario";
     /// The version of brinell that wrote the file. Given by the caller.
     pub const VERSION: &str = "brinell.version";
+    /// The commit that this version was built from, where that is known. Given by the caller.
+    pub const COMMIT: &str = "brinell.commit";
     /// The sample rate in hertz. Given by the caller.
     pub const SAMPLE_RATE_HZ: &str = "brinell.sample_rate_hz";
     /// The unit of each column, a JSON object. Filled in by the writer.
@@ -59,6 +61,15 @@ pub struct Metadata {
 }
 
 impl Metadata {
+    /// Of the program that writes the file: its version and, where known, its commit.
+    pub fn made_by(version: &str, commit: Option<&str>) -> Self {
+        let made = Self::default().with(keys::VERSION, version);
+        match commit {
+            Some(commit) => made.with(keys::COMMIT, commit),
+            None => made,
+        }
+    }
+
     /// The same with one more pair.
     #[must_use]
     pub fn with(mut self, key: impl Into<String>, value: impl Into<String>) -> Self {
@@ -98,12 +109,11 @@ impl Metadata {
 
 /// The columns of a run's file of signals, time and its channels (name, unit, description), and what the file says of itself.
 pub fn run_table<'a>(
-    (scenario_toml, version, rate_hz): (String, &str, f64),
+    (scenario_toml, made_by, rate_hz): (String, Metadata, f64),
     channels: impl Iterator<Item = (&'a str, &'a str, &'a str)>,
 ) -> (Vec<Column>, Metadata) {
     let all = std::iter::once(("t", "s", "time")).chain(channels);
-    let metadata =
-        Metadata::default().with(keys::SCENARIO, scenario_toml).with(keys::VERSION, version).with_rate(rate_hz);
+    let metadata = made_by.with(keys::SCENARIO, scenario_toml).with_rate(rate_hz);
     (all.map(|(name, unit, about)| Column::new(name, unit, about)).collect(), metadata)
 }
 

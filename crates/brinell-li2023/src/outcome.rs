@@ -4,6 +4,7 @@ use crate::Error;
 use crate::figures::with_interval;
 use crate::sensitivity::Flip;
 use crate::{Basis, Claim, Found, Judged, Verdict};
+use brinell::made_by::MadeBy;
 use brinell::signal::objects;
 use brinell_io::{Cells, Column, Table};
 use brinell_report::{ClaimCard, ClaimPart, Tagged, Tone};
@@ -153,7 +154,7 @@ pub(crate) fn write(all: &[Outcome], claims: &Claims, folder: &Path) -> Result<V
 objects! {
     /// claims.json.
     Claims {
-        brinell: &'static str, length: String, starts: u32, base_toml: &'static str, interval: &'static str,
+        brinell: &'static str, made_by: MadeBy, length: String, starts: u32, base_toml: &'static str, interval: &'static str,
         #[serde(skip_serializing_if = "Option::is_none")] sensitivity: Option<Value>,
         #[serde(skip_serializing_if = "Option::is_none")] laws: Option<&'static str>,
         claims: Vec<Judgement>,

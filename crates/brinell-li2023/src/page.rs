@@ -7,6 +7,7 @@ use crate::reproduction::Reproduction;
 use crate::request::Request;
 use crate::{BASE, Basis, Length};
 use crate::{believe, figures, survives};
+use brinell::made_by::MadeBy;
 use brinell::scenario::{Laws, Scenario};
 use brinell_report::{Chapter, DamageView, Fact, Page, Piece, Table, capital};
 
@@ -131,7 +132,7 @@ pub(crate) fn study(
                 n => format!(", {n} starts a case"),
             }
         ),
-        version: brinell::VERSION.into(),
+        version: MadeBy::now().to_string(),
         warnings,
         lead: lead(&reproduction.outcomes),
         facts,

@@ -6,6 +6,7 @@ use crate::recorded::{self, Recorded};
 use crate::reproduction::Reproduction;
 use crate::sensitivity::Sensitivity;
 use crate::{BASE, Error, beside, book, outcome, page};
+use brinell::made_by::MadeBy;
 use brinell::scenario::Scenario;
 use brinell_io::atomic_write;
 use brinell_report::{DamageView, Page, Picture};
@@ -29,6 +30,7 @@ impl Reproduction {
     pub fn write_claims(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
         let claims = Claims {
             brinell: brinell::VERSION,
+            made_by: MadeBy::now(),
             length: self.request.length.words(),
             starts: self.request.length.starts(),
             base_toml: BASE,

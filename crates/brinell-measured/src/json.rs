@@ -5,6 +5,7 @@ use crate::diagnosis::{Diagnosis, Findings};
 use crate::measurement::Measurement;
 use crate::stretch::Rest;
 use brinell::analysis::{Component, HEADLINES, to_json};
+use brinell::made_by::MadeBy;
 use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK, Written, objects};
 use serde_json::Value;
 
@@ -12,7 +13,7 @@ objects! {
     /// Of one bearing.
     One<'a> {
         #[serde(flatten)] analysis: Value,
-        brinell: &'static str, severity: Value, file: FileOf<'a>,
+        brinell: &'static str, made_by: MadeBy, severity: Value, file: FileOf<'a>,
         #[serde(skip_serializing_if = "Option::is_none")] size: Option<Value>,
         #[serde(skip_serializing_if = "Option::is_none")] whole: Option<Whole>,
         #[serde(skip_serializing_if = "Option::is_none")] against: Option<Beside<'a>>,
@@ -25,7 +26,7 @@ objects! {
         #[serde(skip_serializing_if = "Option::is_none")] reason: Option<&'a str> }
     /// Of several bearings.
     Several<'a> {
-        brinell: &'static str, file: FileOf<'a>, verdict: Value, leads: Option<&'a str>, bearings: Vec<Value>,
+        brinell: &'static str, made_by: MadeBy, file: FileOf<'a>, verdict: Value, leads: Option<&'a str>, bearings: Vec<Value>,
     }
     /// Which signal it is.
     FileOf<'a> {
@@ -73,6 +74,7 @@ impl Findings {
             let mut one = as_json(self, diagnosis);
             if let Some(all) = one.as_object_mut().filter(|_| !version) {
                 all.remove("brinell");
+                all.remove("made_by");
             }
             one
         };
@@ -91,8 +93,14 @@ impl Findings {
         let texts = self.bearings.iter().map(|r| format!("{}: {}", r.name, r.verdict_text()));
         verdict["text"] = texts.collect::<Vec<_>>().join("\n").into();
         let leads = self.leads().map(|k| self.bearings[k].name.as_str());
-        let several =
-            Several { brinell: brinell::VERSION, file: FileOf::new(&self.measurement), verdict, leads, bearings };
+        let several = Several {
+            brinell: brinell::VERSION,
+            made_by: MadeBy::now(),
+            file: FileOf::new(&self.measurement),
+            verdict,
+            leads,
+            bearings,
+        };
         serde_json::to_value(several).unwrap_or_default()
     }
 }
@@ -122,6 +130,7 @@ fn as_json(findings: &Findings, result: &Diagnosis) -> Value {
     let one = One {
         analysis,
         brinell: brinell::VERSION,
+        made_by: MadeBy::now(),
         severity: result.levels.to_json(unit),
         file: FileOf { said: Some(said), ..FileOf::new(m) },
         size: result.size_json(),

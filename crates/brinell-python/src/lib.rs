@@ -3,6 +3,7 @@
 
 mod bad_value;
 mod calibrate;
+mod command;
 mod compare;
 mod convert;
 mod dataset;
@@ -29,6 +30,8 @@ mod _brinell {
     #[pymodule_export]
     use crate::sweep::{in_unit, sweep, values};
     #[pymodule_export]
+    use command::command;
+    #[pymodule_export]
     use compare::{Comparison, check_names};
     #[pymodule_export]
     use dataset::{Campaign, kernel, merge, verify};
@@ -47,6 +50,7 @@ mod _brinell {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        brinell_cli::COMMIT.map(brinell::made_by::built_from);
         brinell_damage::keep_tables();
         let py = module.py();
         module.add("ScenarioError", py.get_type::<errors::ScenarioError>())?;

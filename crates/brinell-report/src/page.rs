@@ -211,7 +211,7 @@ pub struct Page {
     pub subtitle: String,
     /// Whether signals were analysed; else runs were simulated.
     pub analysed: bool,
-    /// The version of the program.
+    /// The version of the program, and what else made the page.
     pub version: String,
     /// Why the run ended early, where it did.
     pub partial: Option<String>,

@@ -5,8 +5,9 @@ use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{Analysis, COLUMNS, Family};
+use brinell::made_by;
 use brinell::signal::{Estimate, Indicator, Moments};
-use brinell_io::{Format, Outcome, run_table};
+use brinell_io::{Format, Metadata, Outcome, run_table};
 use serde_json::Value;
 
 /// What the page gets of an analysis.
@@ -55,7 +56,11 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
             return Err(Trouble::of("\"format\" must be \"csv\", \"wav\" or \"npz\""));
         }
     };
-    let of = (bench.loaded.to_toml(), brinell::VERSION, bench.simulation().sample_rate());
+    let of = (
+        bench.loaded.to_toml(),
+        Metadata::made_by(brinell::VERSION, made_by::commit()),
+        bench.simulation().sample_rate(),
+    );
     let (columns, metadata) = run_table(of, bench.simulation().table());
     let failed = |e: brinell_io::IoError| Trouble::of(e.to_string());
     let mut writer = format.in_memory(&columns, &metadata).map_err(failed)?;

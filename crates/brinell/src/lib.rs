@@ -177,6 +177,7 @@ pub mod lamina;
 #[doc(hidden)]
 pub mod lanes;
 pub mod machine;
+pub mod made_by;
 #[doc(hidden)]
 pub mod model;
 pub mod observe;

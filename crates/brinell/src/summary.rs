@@ -4,6 +4,7 @@ use crate::accuracy::METHOD;
 use crate::bearing::kinematics::Kinematics;
 use crate::document::{Difference, Provenance};
 use crate::kernel::Kernel;
+use crate::made_by::MadeBy;
 use crate::model::{self, Model};
 use crate::observe::load_zone::{BINS, RowLoad};
 use crate::observe::{Findings, passes};
@@ -26,6 +27,7 @@ pub const FORM: u32 = 2;
 struct Summary<'a> {
     form: u32,
     brinell: &'static str,
+    made_by: MadeBy,
     name: &'a str,
     status: Status,
     simulated: Simulated,
@@ -46,13 +48,14 @@ struct Summary<'a> {
     healthy: Option<Healthy>,
 }
 
-/// The summary as JSON; the same run gives the same bytes.
+/// The summary as JSON; the same run gives the same bytes, but for the date.
 pub fn to_json(parts: &Parts) -> Value {
     let Parts { loaded, simulation, outcome, findings, .. } = *parts;
     let scenario = &loaded.scenario;
     let summary = Summary {
         form: FORM,
         brinell: crate::VERSION,
+        made_by: MadeBy::of_scenario(&loaded.to_toml()),
         name: &scenario.name,
         status: status(&outcome.end),
         simulated: Simulated {

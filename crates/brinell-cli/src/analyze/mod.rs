@@ -16,13 +16,12 @@ mod written;
 
 pub(crate) use args::AnalyzeArgs;
 
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::say::complain;
 use brinell_measured::{Request, examine, is_too_short, of_file, together};
 use files::{Files, files};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use written::{earlier, put_json, put_pages};
 
 pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {

@@ -6,6 +6,7 @@ use super::records::Record;
 use crate::failure::Failure;
 use crate::say::{complain, short};
 use brinell::analysis::{MachineClass, Unit};
+use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator};
 use brinell_measured::{Diagnosis, Findings, Measurement, Short, examine, is_too_short};
 use brinell_report::scaled;
@@ -150,6 +151,7 @@ impl Found {
     pub(super) fn whole(&self) -> Value {
         let mut json = self.json.clone();
         json["brinell"] = brinell::VERSION.into();
+        json["made_by"] = serde_json::json!(MadeBy::now());
         json
     }
 

@@ -7,15 +7,15 @@ use super::records::records;
 use super::rows::{Row, one};
 use super::trend;
 use super::written::{earlier, put_json, put_pages};
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::results::Earlier;
 use crate::say::{self, complain, one_line, say};
+use brinell::made_by::MadeBy;
 use brinell_measured::{Request, Times, Trend};
 use brinell_report::{Chapter, Page, Piece, Table, ZONES, html, pictures};
 use brinell_study::campaign::of_results;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Longest name that the terminal's table makes room for.
 const WIDEST: usize = 48;
@@ -114,7 +114,7 @@ pub(super) fn analyze(
         }
         say::wrote(written);
     }
-    Ok(ExitCode::from(u8::from(failed > 0)))
+    Ok(ExitCode(u8::from(failed > 0)))
 }
 
 /// The verdict of several channels of one machine: that of the highest score.
@@ -146,7 +146,7 @@ fn write(
     trend: Option<&Trend>,
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let mut json = json!({ "brinell": brinell::VERSION, "records": records });
+    let mut json = json!({ "brinell": brinell::VERSION, "made_by": MadeBy::now(), "records": records });
     if let Some(trend) = trend {
         json["trend"] = trend.to_json();
     }
@@ -230,7 +230,7 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
         title: title.into(),
         subtitle,
         analysed: true,
-        version: brinell::VERSION.into(),
+        version: MadeBy::now().to_string(),
         warnings: warnings(rows).into_iter().chain(dated.into_iter().flat_map(|t| t.warnings.clone())).collect(),
         chapters,
         ..Page::default()

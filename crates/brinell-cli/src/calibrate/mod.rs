@@ -4,7 +4,7 @@ mod args;
 mod measured;
 
 use crate::campaign::{self, Terminal};
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files::make_folder;
 use crate::files::{Source, stem};
 use crate::results::{Resumed, put};
@@ -24,7 +24,6 @@ use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
 use serde_json::Value;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -3,7 +3,7 @@
 use super::bearing::{assumptions, bearing, frequencies, static_balance};
 use super::lamina;
 use crate::args::CheckArgs;
-use crate::failure::{Failure, print_problems};
+use crate::failure::{ExitCode, Failure, print_problems};
 use crate::say::{self, one_line, plain_number, say, short, significant};
 use crate::sweep::duration;
 use brinell::analysis::STANDARD_GRAVITY;
@@ -16,7 +16,6 @@ use brinell::scenario::Machine;
 use brinell::simulate::Simulation;
 use brinell_study::runner::Forecast;
 use std::f64::consts::TAU;
-use std::process::ExitCode;
 
 /// Natural frequencies that are printed at most, and critical speeds.
 const MOST: usize = 8;

@@ -5,21 +5,21 @@ mod sides;
 mod spread;
 
 use crate::campaign::Terminal;
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files::{make_folder, safe_name, stem};
 use crate::inputs::Inputs;
 use crate::results::{COMPARISON, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::CompareArgs;
+use brinell::made_by;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
-use brinell_io::{Metadata, atomic_prepare, keys};
+use brinell_io::{Metadata, atomic_prepare};
 use brinell_report::Page;
 use brinell_study::campaign::{self, Compared, Level, Side, run_all, sides_json, sides_scenarios, sides_table};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 const CSV: &str = "compare.csv";
@@ -75,7 +75,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let report = Page::of_runs(sides, &all, &compared, warnings);
     let table = sides_table(sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);
-    let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
+    let metadata = Metadata::made_by(brinell::VERSION, made_by::commit());
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
     let pictures = match &args.plots[..] {
         [] => Vec::new(),

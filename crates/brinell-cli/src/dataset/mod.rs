@@ -5,7 +5,7 @@ mod plan;
 mod sheet;
 
 use crate::campaign::Terminal;
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::files::safe_name;
 use crate::inputs::Inputs;
 use crate::results::Resumed;
@@ -16,7 +16,6 @@ use args::{DatasetCommand, MergeArgs, VerifyArgs};
 use brinell::signal::objects;
 use brinell_study::dataset::{Campaign, DatasetError, Merged, ShardSummary, merge, run, verify};
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 

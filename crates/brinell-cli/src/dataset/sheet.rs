@@ -1,14 +1,13 @@
 //! `brinell dataset sheet`: a few runs of each class on a page, or one machine's history.
 
 use super::args::SheetArgs;
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::say::{plural, say};
 use brinell::document;
 use brinell_io::atomic_write;
 use brinell_measured::{Asked, Called, GivenSpeed, Measurement, Request, examine};
 use brinell_report::{Page, html};
 use brinell_study::dataset::{Size, WholeSignal, history, sheet};
-use std::process::ExitCode;
 
 /// Beside the data set's card.
 const FILE: &str = "sheet.html";

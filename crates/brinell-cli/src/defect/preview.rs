@@ -8,6 +8,7 @@ use crate::files::{Source, make_folder, safe_name};
 use crate::results::{PREVIEW, Results};
 use crate::say::{self, document, say, short};
 use brinell::document::{Loaded, Origin, Provenance};
+use brinell::made_by::MadeBy;
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{Damage, DamageCurves, DamagePanel, Layout, Picture, PressureView, damage_of};
@@ -41,7 +42,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         tables(*index, damage, &folder, &mut ready)?;
         entries.push(entry(*index, damage));
     }
-    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": null, "defects": entries });
+    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "made_by": MadeBy::of_scenario(&s.to_toml()), "files": null, "defects": entries });
     let (written, text) = earlier.publish(ready, (PREVIEW, json), None, (&[], &[]))?;
     if args.json {
         document(text.trim_end());

@@ -3,7 +3,7 @@
 mod scan;
 
 use self::scan::{Raceway, STEP_MM, scan_of};
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::say::{document, pretty, say};
 use brinell::Scenario;
 use brinell::bearing::catalogue::{self, Entry};
@@ -13,7 +13,6 @@ use brinell::document::toml_quote;
 use brinell_io::{Complete, atomic_prepare, atomic_write};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// What an editor explains the keys with; the first line of each scenario names it.
 const SCHEMA: &str = "brinell-schema.json";

@@ -3,7 +3,7 @@
 mod args;
 
 use crate::campaign;
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::figures::write_plots;
 use crate::files::make_folder;
 use crate::inputs::Inputs;
@@ -23,7 +23,6 @@ use brinell_study::runner::{Beside, Ledger, Task, Work, to_run};
 use serde_json::Value;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 

@@ -2,7 +2,7 @@
 
 use super::task::{Task, earlier, execute, ready};
 use crate::args::RunArgs;
-use crate::failure::{BAD_INPUT, Failure, INTERRUPTED};
+use crate::failure::{ExitCode, Failure};
 use crate::files::{self, make_folder, safe_name};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
@@ -12,7 +12,6 @@ use brinell::simulate::End;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -22,7 +21,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let folders = folders(&args.scenarios, root)?;
     let Some(tasks) = checked(args, folders) else {
         complain!("nothing was run");
-        return Ok(ExitCode::from(BAD_INPUT));
+        return Ok(ExitCode::BAD_INPUT);
     };
     for task in &tasks {
         make_folder(&task.folder)?;
@@ -86,7 +85,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         complain!("{} of {} runs failed", failures.len(), tasks.len());
     }
     Ok(if interrupted {
-        ExitCode::from(INTERRUPTED)
+        ExitCode::INTERRUPTED
     } else if failures.is_empty() {
         ExitCode::SUCCESS
     } else {

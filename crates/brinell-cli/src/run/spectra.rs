@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::results::SPECTRA;
+use brinell::made_by;
 use brinell::observe::Findings;
-use brinell_io::{Cells, Column, Complete, Metadata, Table, keys};
+use brinell_io::{Cells, Column, Complete, Metadata, Table};
 use std::path::Path;
 
 /// A row a line of a spectrum, one spectrum after the other; `None` of a run too short for any.
@@ -31,6 +32,6 @@ pub(super) fn ready(findings: &Findings, folder: &Path) -> Result<Option<Complet
     column("frequency_hz", "Hz", "frequency", Cells::Numbers(frequencies));
     let about = "peak amplitude of the line; at 0 Hz the mean";
     column("amplitude", "m/s^2", about, Cells::Numbers(amplitudes));
-    let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
+    let metadata = Metadata::made_by(brinell::VERSION, made_by::commit());
     Ok(Some(table.prepare_parquet(folder.join(SPECTRA), &metadata)?))
 }

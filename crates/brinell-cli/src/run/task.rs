@@ -11,13 +11,14 @@ use crate::results::{Earlier, REPORT, Results, SCENARIO, SUMMARY, is_of};
 use crate::say::{complain, short};
 use crate::sweep::duration;
 use brinell::document::Loaded;
+use brinell::made_by;
 use brinell::plausibility::Beforehand;
 use brinell::result::Parts;
 use brinell::result::{RunResult, finish};
 use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary;
 use brinell_damage::Photo;
-use brinell_io::{Format, atomic_prepare, run_table};
+use brinell_io::{Format, Metadata, atomic_prepare, run_table};
 use brinell_report::Page;
 use brinell_study::runner::{Make, Recorder, forecast};
 use std::path::{Path, PathBuf};
@@ -153,7 +154,7 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
 
 /// Begins the files of signals.
 fn files(args: &RunArgs, loaded: &Loaded, simulation: &Simulation, folder: &Path) -> Box<Make> {
-    let of = (loaded.to_toml(), brinell::VERSION, simulation.sample_rate());
+    let of = (loaded.to_toml(), Metadata::made_by(brinell::VERSION, made_by::commit()), simulation.sample_rate());
     let (columns, metadata) = run_table(of, simulation.table());
     let (formats, folder) = (formats(args), folder.to_owned());
     Box::new(move || formats.iter().map(|format| format.create(&folder, &columns, &metadata)).collect())

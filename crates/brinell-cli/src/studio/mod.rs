@@ -6,7 +6,7 @@ mod limits;
 mod pages;
 mod places;
 
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use answer::{Door, Route};
 use brinell_io::hexadecimal;
 use brinell_studio_page::PAGE;
@@ -15,7 +15,6 @@ use http::{Reply, Request};
 use pages::Pages;
 use places::{Place, Places};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;

@@ -6,7 +6,7 @@ mod points;
 mod table;
 
 use crate::campaign;
-use crate::failure::Failure;
+use crate::failure::{ExitCode, Failure};
 use crate::figures::ready_pictures;
 use crate::files::make_folder;
 use crate::files::stem;
@@ -15,7 +15,8 @@ use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
-use brinell::kernel::Kernel;
+use brinell::made_by;
+use brinell::made_by::MadeBy;
 use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, keys};
@@ -27,7 +28,6 @@ use points::{FromSource, Points};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Instant;
 use table::count;
 
@@ -244,7 +244,7 @@ fn write(
     warnings: Vec<String>,
 ) -> Result<Vec<PathBuf>, Failure> {
     let table = table::table(points, states, args.keep_signals);
-    let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION).with(keys::SCENARIO, points.source.text());
+    let metadata = Metadata::made_by(brinell::VERSION, made_by::commit()).with(keys::SCENARIO, points.source.text());
     let mut written =
         vec![table.write_csv(folder.join("sweep.csv"))?, table.write_parquet(folder.join("sweep.parquet"), &metadata)?];
     let count = |word: &str| count(states, word);
@@ -254,7 +254,7 @@ fn write(
         points.source.overrides().iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
     let json = json!({
         "brinell": brinell::VERSION,
-        "kernel": Kernel::chosen().map_or("", Kernel::name),
+        "made_by": MadeBy::now(),
         "plan": points.read.header()["plan"],
         "warnings": warnings,
         "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },

@@ -3,6 +3,7 @@
 use super::points::Points;
 use super::table::{count, number};
 use crate::say::{plural, shown_unit};
+use brinell::made_by::MadeBy;
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{
@@ -64,7 +65,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnin
     Page {
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
-        version: brinell::VERSION.into(),
+        version: MadeBy::now().to_string(),
         warnings: (missing > 0).then_some(incomplete).into_iter().chain(warnings).collect(),
         lead: sweep_lead(&drawn),
         facts,

@@ -4,9 +4,10 @@ use super::SweepArgs;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::files::make_folder;
+use brinell::made_by;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
-use brinell_io::{ParquetWriter, run_table};
+use brinell_io::{Metadata, ParquetWriter, run_table};
 use brinell_study::campaign::{Axis, Grid, is_inside};
 use brinell_study::runner::{GridPoints, Make, Task, Work};
 use std::num::NonZeroUsize;
@@ -84,7 +85,7 @@ impl Work for FromSource<'_> {
         };
         make_folder(folder)?;
         let text = self.source.load(&task.settings, true)?.to_toml();
-        let of = (text, brinell::VERSION, simulation.sample_rate());
+        let of = (text, Metadata::made_by(brinell::VERSION, made_by::commit()), simulation.sample_rate());
         let (columns, metadata) = run_table(of, simulation.table());
         Ok(Box::new(move || Ok(vec![Box::new(ParquetWriter::create(&path, &columns, &metadata)?)])))
     }

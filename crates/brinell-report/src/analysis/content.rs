@@ -12,6 +12,7 @@ use brinell::analysis::{
     Analysis, COLUMNS, Comparison, Component, Family, Finding, HARMONICS, Levels, Unit, Verdict, indicator_words,
     shown_spectrum,
 };
+use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator, Spectrum, VelocityBands};
 
 /// Most samples of a waveform that the page is given: more are not seen.
@@ -69,7 +70,7 @@ impl AnalysisReport {
         let mut page = Self {
             title,
             subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
-            version: brinell::VERSION.into(),
+            version: MadeBy::now().to_string(),
             verdict: of.verdict.into(),
             tone,
             warnings: of.warnings.to_vec(),

@@ -22,7 +22,7 @@ pub struct AnalysisReport {
     pub title: String,
     /// File and channel, length, speed.
     pub subtitle: String,
-    /// The version of the program.
+    /// The version of the program, and what else made the page.
     pub version: String,
     /// The verdict in a paragraph.
     pub verdict: String,

@@ -6,6 +6,7 @@ use crate::misfit::Tried;
 use crate::number::{digits_beside, plural, short};
 use crate::page::{Chapter, Page, Piece};
 use crate::tables::Table;
+use brinell::made_by::MadeBy;
 use brinell_study::calibrate::identify::Direction;
 use brinell_study::calibrate::search::STEP;
 use brinell_study::calibrate::{Evaluation, Met, Outcome};
@@ -43,7 +44,7 @@ impl Page {
         Self {
             title: format!("Calibration of {}", of.best.scenario.name),
             subtitle: format!("{} to {}", names.join(", "), plural(of.compared.len(), "target")),
-            version: brinell::VERSION.into(),
+            version: MadeBy::now().to_string(),
             warnings: unmet.into_iter().chain(of.warnings.iter().cloned()).collect(),
             lead: calibration_verdict(of).into_iter().next().unwrap_or_default(),
             facts,

@@ -15,6 +15,7 @@ use crate::data::Signals;
 use crate::frame::THINNED;
 use crate::number::short;
 use crate::page::Page;
+use brinell::made_by::MadeBy;
 use brinell::plausibility::observed;
 use brinell::result::Parts;
 use brinell::scenario::{Bearing, ModelKind, Scenario, Speed};
@@ -62,7 +63,7 @@ impl Page {
         Self {
             title: if scenario.name.is_empty() { "Bearing vibration".into() } else { scenario.name.clone() },
             subtitle: subtitle(scenario),
-            version: brinell::VERSION.to_owned(),
+            version: MadeBy::of_scenario(&parts.loaded.to_toml()).to_string(),
             partial: match &parts.outcome.end {
                 End::Complete => None,
                 End::Stopped => Some("the run was stopped before its duration".into()),

@@ -9,6 +9,7 @@ use crate::page::{Chapter, Page};
 use crate::quantity::value_text;
 use crate::tables::Table;
 use brinell::document::Loaded;
+use brinell::made_by::MadeBy;
 use brinell::observe::passes::place;
 use brinell::plausibility::after;
 use brinell::result::{Quantity, RunResult};
@@ -62,7 +63,7 @@ impl Page {
         Self {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
-            version: brinell::VERSION.into(),
+            version: MadeBy::now().to_string(),
             warnings,
             lead: lead(&names, &headlines),
             facts: facts(&names, &headlines),

@@ -8,6 +8,7 @@ use super::{Evaluation, Fit, FitPlan, Key};
 use crate::campaign::{Beforehand, in_json, of_results};
 use crate::runner::RunnerError;
 use brinell::document::Loaded;
+use brinell::made_by::MadeBy;
 use brinell::signal::distribution::chi_square_tail;
 use brinell::signal::objects;
 use brinell_io::{Cells, Column, Table};
@@ -288,6 +289,7 @@ impl Outcome {
         };
         in_json(&Calibrated {
             brinell: brinell::VERSION,
+            made_by: MadeBy::now(),
             warnings: &self.warnings,
             plan: plan.header(),
             budget: plan.settings.budget,
@@ -316,7 +318,7 @@ impl Outcome {
 objects! {
     /// `calibrate.json`; what is not finite is null there.
     Calibrated<'a> {
-        brinell: &'a str, warnings: &'a [String], plan: Value, budget: usize, runs: Counts, met: bool, chi_square: f64,
+        brinell: &'a str, made_by: MadeBy, warnings: &'a [String], plan: Value, budget: usize, runs: Counts, met: bool, chi_square: f64,
         degrees_of_freedom: i64, p_value: Option<f64>, uncertainties_multiplied_by: f64, keys: Vec<FittedKey>,
         targets: &'a [Met], correlation: Vec<Vec<f64>>, directions: Vec<Combination>, verdict: &'a [String],
         undetermined: &'a [String], measured: Option<&'a [String]>,

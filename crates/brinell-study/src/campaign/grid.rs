@@ -2,7 +2,8 @@
 
 use super::axis::Axis;
 use super::error::{MOST_POINTS, PlanError};
-use super::row::{digest, in_json};
+use super::row::in_json;
+use brinell::made_by::digest;
 use brinell::signal::objects;
 use serde_json::Value;
 

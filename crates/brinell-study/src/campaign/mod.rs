@@ -33,8 +33,6 @@ pub(crate) use grid::clash;
 #[doc(hidden)]
 pub use grid::is_inside;
 pub(crate) use kernel::{DIFFER, kernel, other_kernel};
-#[doc(hidden)]
-pub use row::digest;
 pub use row::{Row, fingerprint};
 pub(crate) use row::{in_json, settings_json};
 pub use run::run_all;

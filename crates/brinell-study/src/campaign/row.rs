@@ -1,11 +1,10 @@
 //! What is kept of a point: its settings, which scenario it was, and its numbers or why there are none.
 
+use brinell::made_by::digest;
 use brinell::result::{Quantity, by_name, named};
 use brinell::scenario::Scenario;
-use brinell_io::hexadecimal;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
 
 /// A point that is done.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,11 +25,6 @@ pub struct Row {
 /// the same, however their files were written; files of damage count by what was read from them.
 pub fn fingerprint(scenario: &Scenario) -> String {
     digest(&scenario.to_toml())
-}
-
-/// SHA-256 of a text, in hexadecimal.
-pub fn digest(text: &str) -> String {
-    hexadecimal(&Sha256::digest(text.as_bytes()))
 }
 
 /// A row as its journal has it.

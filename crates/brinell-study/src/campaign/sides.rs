@@ -4,6 +4,7 @@
 use super::Compared;
 use super::row::in_json;
 use brinell::document::{Loaded, Provenance};
+use brinell::made_by::MadeBy;
 use brinell::signal::{Written, objects};
 use brinell_io::{Cells, Column, Table};
 use serde_json::{Map, Value};
@@ -144,7 +145,7 @@ objects! {
     Number<'a> { unit: &'a str, runs: Map<String, Value>, ratios: Map<String, Value> }
     /// `compare.json`.
     Comparison<'a> {
-        brinell: &'a str, baseline: Option<&'a str>, warnings: &'a [String], interval: &'a str, ratio: &'a str,
+        brinell: &'a str, made_by: MadeBy, baseline: Option<&'a str>, warnings: &'a [String], interval: &'a str, ratio: &'a str,
         interval_of_a_ratio: &'a str, quantities: Map<String, Value>, scenarios: Map<String, Value>,
     }
 }
@@ -164,6 +165,7 @@ pub fn sides_json(sides: &[Side], compared: &[Compared], warnings: &[String]) ->
     };
     in_json(&Comparison {
         brinell: brinell::VERSION,
+        made_by: MadeBy::now(),
         baseline: sides.first().map(|side| &*side.label),
         warnings,
         interval: "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",

@@ -1,6 +1,6 @@
 //! A plan with its base scenario: everything that the runs are made from.
 
-use crate::campaign::{BALANCED, Beforehand, Misses, count, digest, fingerprint};
+use crate::campaign::{BALANCED, Beforehand, Misses, count, fingerprint};
 use crate::dataset::columns::{DataColumn, columns};
 use crate::dataset::document::Document;
 use crate::dataset::error::DatasetError;
@@ -9,6 +9,7 @@ use crate::dataset::signals::Signals;
 use crate::design::{Draw, Draws, Part, Plan, Repeats, Survey, place_in_plan, unsaid};
 use brinell::channel::matches;
 use brinell::document::{Loaded, Problem, canonical, locate};
+use brinell::made_by::digest;
 use brinell::many;
 use brinell::simulate::Simulation;
 use brinell_damage::resolve_loaded;

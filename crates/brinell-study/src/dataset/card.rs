@@ -1,12 +1,12 @@
 //! The data set's card: `README.md` with the splits for Hugging Face's `load_dataset`, and `croissant.json` for tools
 //! that read MLCommons' Croissant.
 
-use crate::campaign::digest;
 use crate::dataset::about::{About, ColumnOf, Facts, Histories, Runs, Split, Sum};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
 use crate::dataset::tally::Tally;
 use crate::design::Part;
+use brinell::made_by::digest;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;

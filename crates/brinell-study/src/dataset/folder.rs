@@ -1,8 +1,9 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
-use crate::campaign::{digest, other_kernel};
+use crate::campaign::other_kernel;
 use crate::dataset::about::{About, ColumnOf, Facts, Held, PartFacts};
 use crate::dataset::error::DatasetError;
+use brinell::made_by::digest;
 use brinell_io::{IoError, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! `dataset.json`: what the files are, for those who have nothing but the folder.
 
-use crate::campaign::{digest, in_json, kernel};
+use crate::campaign::{in_json, kernel};
 use crate::dataset::about::{
     About, Class, ColumnOf, Facts, Files, Geometry, GeometryKey, Held, Histories, Rate, Runs, Sources, Split, Sum,
 };
@@ -11,6 +11,7 @@ use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CHECKSUM, Folder, SECRET_PATH, file_name, make, put, written};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
+use brinell::made_by::digest;
 use brinell_io::Kind;
 use serde::Serialize;
 use std::path::Path;

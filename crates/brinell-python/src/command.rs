@@ -1,0 +1,11 @@
+//! The `brinell` command of a wheel.
+
+use pyo3::prelude::*;
+use std::ffi::OsString;
+
+/// Runs the command with these arguments, the first of which is the program's name; its exit code. For a process of its
+/// own.
+#[pyfunction]
+pub(crate) fn command(py: Python<'_>, args: Vec<OsString>) -> u8 {
+    py.detach(|| brinell_cli::run(args))
+}
