@@ -27,10 +27,11 @@ fn trend(folder: &Path, more: &[&str]) -> crate::common::Call {
 #[test]
 fn regress_dated_records_have_a_trend_on_the_terminal_in_files_and_on_a_page() {
     let folder = records(|k| format!("2024.03.{:02}.06.00.00", 1 + 2 * k));
-    let more = ["--limit", "kurtosis=4", "--limit", "rms=40", "-o", "look", "--json", "all.json"];
+    let more = ["--limit", "kurtosis=4", "--limit", "rms=40", "--limit", "rms=1.5", "-o", "look", "--json", "all.json"];
     let done = trend(folder.path(), &more).exits(0).says(&[
         "10 records, 2024-03-01 06:00 to 2024-03-19 06:00, by the names of the files",
         "limit kurtosis 4: first above at 2024-03-",
+        "limit rms 1.5 g: first above at 2024-03-19 06:00",
         "limit rms 40 g: no record is above; ",
         "wrote look/trend.csv",
     ]);
@@ -53,12 +54,12 @@ fn regress_dated_records_have_a_trend_on_the_terminal_in_files_and_on_a_page() {
     assert_eq!(change["kind"], "growth");
     let [low, value, high] = ["low", "value", "high"].map(|end| change["doubling"][end].as_f64().unwrap());
     assert!(0.0 < low && low < value && value < high, "{change}");
-    assert_eq!(kurtosis["limit"]["records"][0], "below");
-    assert_eq!(kurtosis["limit"]["records"][9], "above");
-    assert_eq!(level("rms")["limit"]["first_above"], serde_json::Value::Null);
+    assert_eq!(kurtosis["limits"][0]["records"][0], "below");
+    assert_eq!(kurtosis["limits"][0]["records"][9], "above");
+    assert_eq!(level("rms")["limits"][1]["first_above"], serde_json::Value::Null);
 
     let table = fs::read_to_string(folder.path().join("look/trend.csv")).unwrap();
-    assert!(table.starts_with("file,date,at,says,damage,rms [g],rms_low [g],rms_high [g],"), "{table}");
+    assert!(table.starts_with("file,date,at,says,damage,not_compared,rms [g],rms_low [g],rms_high [g],"), "{table}");
     assert_eq!(table.lines().count(), 11);
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     for part in ["Trend of one machine", "What changed", "Levels over time", ">2024-03-16<", "limit 4"] {

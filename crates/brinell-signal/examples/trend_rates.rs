@@ -10,45 +10,66 @@ const SERIES: u32 = 200;
 const SHARE: f64 = 0.006;
 
 /// Scatter of standard deviation 0.1 that wanders with this correlation from value to value, on a level that is known to 0.02.
-fn course(random: &mut Random, n: usize, correlation: f64, level: impl Fn(usize) -> f64) -> Course {
+fn course(random: &mut Random, t: Vec<f64>, correlation: f64, level: impl Fn(f64) -> f64) -> Course {
     let mut last = random.normal();
-    let y = (0..n).map(|i| {
+    let y = t.iter().map(|t| {
         let now = last;
         last = correlation * last + (1.0 - correlation * correlation).sqrt() * random.normal();
-        0.1 * now + level(i)
+        0.1 * now + level(*t)
     });
-    Course { y: y.collect(), t: (0..n).map(|i| i as f64).collect(), s: vec![0.02; n] }
+    Course { y: y.collect(), s: vec![0.02; t.len()], t }
+}
+
+/// One record in each unit of time.
+fn daily(n: usize) -> Vec<f64> {
+    (0..n).map(|i| i as f64).collect()
+}
+
+/// Records without a change that are far off.
+#[derive(Clone, Copy)]
+enum FarOff {
+    None,
+    /// Each with this probability.
+    Some(f64),
+    /// So many at the end.
+    Last(usize),
 }
 
 /// Of series without a change, the share in which one is found where 5 % are asked for.
-fn false_alarms(n: usize, correlation: f64, far_off: f64) -> f64 {
+fn false_alarms(n: usize, correlation: f64, far_off: FarOff) -> f64 {
     let mut random = Random::new(n as u64);
     let mut found = 0;
     for _ in 0..SERIES {
-        let mut course = course(&mut random, n, correlation, |_| 0.0);
-        for y in &mut course.y {
-            if random.part() < far_off {
-                *y += 1.0;
-            }
+        let mut course = course(&mut random, daily(n), correlation, |_| 0.0);
+        for (i, y) in course.y.iter_mut().enumerate() {
+            let off = match far_off {
+                FarOff::None => false,
+                FarOff::Some(share) => random.part() < share,
+                FarOff::Last(count) => i + count >= n,
+            };
+            *y += f64::from(u8::from(off));
         }
         found += u32::from(changes(&course, 0.05).is_some_and(|trend| !trend.changes.is_empty()));
     }
     f64::from(found) / f64::from(SERIES)
 }
 
-/// Growth by `times` in the last two fifths: the share that is found, and of these the shares whose intervals of onset, rate and time to a limit hold.
-fn growth(n: usize, correlation: f64, times: f64) -> [f64; 4] {
-    let (onset, mut random) = (n * 3 / 5, Random::new(n as u64));
-    let rate = times.ln() / (n - 1 - onset) as f64;
+/// Growth by `times` in the last two fifths, from a record on or from any time before the next: the share that is found, and of these the shares
+/// whose intervals of onset, rate and time to a limit hold. With a gap, the onset is anywhere in it.
+fn growth(t: &[f64], correlation: f64, times: f64) -> [f64; 4] {
+    let (n, mut random) = (t.len(), Random::new(t.len() as u64));
     let mut held = [0; 4];
     for _ in 0..SERIES {
-        let course = course(&mut random, n, correlation, |i| rate * (i as f64 - onset as f64).max(0.0));
+        let k = n * 3 / 5;
+        let onset = t[k] + random.part() * (t[k + 1] - t[k]);
+        let rate = times.ln() / (t[n - 1] - onset);
+        let course = course(&mut random, t.to_vec(), correlation, |t| rate * (t - onset).max(0.0));
         let Some(trend) = changes(&course, SHARE) else { continue };
         let Some(change) = trend.changes.iter().find(|change| change.kind == Kind::Growth) else { continue };
         held[0] += 1;
         held[1] += u32::from((change.between.0..=change.between.1).contains(&onset));
         held[2] += u32::from(change.by.interval.is_some_and(|of| of.low <= rate && rate <= of.high));
-        let (limit, at) = ((2.0 * times).ln(), onset as f64 + (2.0 * times).ln() / rate);
+        let (limit, at) = ((2.0 * times).ln(), onset + (2.0 * times).ln() / rate);
         let reach = change.reach(&course, limit);
         held[3] += u32::from(reach.is_some_and(|r| r.low <= at && r.high.is_none_or(|high| at <= high)));
     }
@@ -61,9 +82,15 @@ fn growth(n: usize, correlation: f64, times: f64) -> [f64; 4] {
 fn main() {
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     println!("| records | 0 | 0.5 | 0.8 | 0.95 |\n| --- | --- | --- | --- | --- |");
-    for (n, far_off, words) in
-        [(8, 0.0, "8"), (15, 0.0, "15"), (30, 0.0, "30"), (60, 0.0, "60"), (30, 0.05, "30, 5 % of the records far off")]
-    {
+    for (n, far_off, words) in [
+        (8, FarOff::None, "8"),
+        (15, FarOff::None, "15"),
+        (30, FarOff::None, "30"),
+        (60, FarOff::None, "60"),
+        (30, FarOff::Some(0.05), "30, 5 % of the records far off"),
+        (30, FarOff::Last(1), "30, the last record far off"),
+        (30, FarOff::Last(2), "30, the last two far off"),
+    ] {
         let row = [0.0, 0.5, 0.8, 0.95].map(|correlation| percent(false_alarms(n, correlation, far_off)));
         println!("| {words} | {} |", row.join(" | "));
     }
@@ -80,6 +107,12 @@ fn main() {
         (40, 0.0, 2.0),
         (40, 0.7, 2.0),
     ] {
-        println!("| {n}, {correlation}, {times}-fold | {} |", growth(n, correlation, times).map(percent).join(" | "));
+        let row = growth(&daily(n), correlation, times).map(percent).join(" | ");
+        println!("| {n}, {correlation}, {times}-fold | {row} |");
+    }
+    for times in [4.0, 16.0] {
+        let t: Vec<f64> = (0..40).map(|i| f64::from(i) + if i > 24 { 20.0 } else { 0.0 }).collect();
+        let row = growth(&t, 0.0, times).map(percent).join(" | ");
+        println!("| 40, 0, {times}-fold, none for 20 units of time before it is seen | {row} |");
     }
 }

@@ -39,7 +39,8 @@ pub(super) fn analyze(
     };
     let earlier = earlier(args, files, of_same)?;
     let quiet = args.quiet || args.json.as_deref() == Some(Path::new("-"));
-    let width = records.iter().map(|r| r.name.chars().count()).max().unwrap_or(0);
+    let labels: Vec<String> = (records.iter().enumerate()).map(|(k, r)| label(times.as_ref(), k, &r.name)).collect();
+    let width = labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
     let width = width.clamp(4, WIDEST);
     let mut columns = COLUMNS;
     // Of several each has its name, and may have another's.
@@ -54,7 +55,7 @@ pub(super) fn analyze(
         say!("{what:<width$} {}", heads.join(" "));
     }
     let mut rows: Vec<Row> = Vec::new();
-    for record in records {
+    for (record, label) in records.into_iter().zip(&labels) {
         let found = one(args, &record).map_err(|error| {
             let words = error.to_string().replace('\n', " ");
             // The row has its name.
@@ -65,11 +66,11 @@ pub(super) fn analyze(
         if !quiet {
             match &row.found {
                 Ok(found) => {
-                    for line in in_columns(&one_line(&row.name), width, &found.cells(), &columns) {
+                    for line in in_columns(&one_line(label), width, &found.cells(), &columns) {
                         say!("{line}");
                     }
                 }
-                Err(why) => say!("{:<width$} no result: {why}", one_line(&row.name)),
+                Err(why) => say!("{:<width$} no result: {why}", one_line(label)),
             }
         }
         rows.push(row);
@@ -115,6 +116,11 @@ pub(super) fn analyze(
         say::wrote(written);
     }
     Ok(ExitCode(u8::from(failed > 0)))
+}
+
+/// What a record is called in tables: of a trend behind its time.
+fn label(times: Option<&Times>, record: usize, name: &str) -> String {
+    times.map_or(name.to_owned(), |times| format!("{}  {name}", times.text(times.at[record])))
 }
 
 /// The verdict of several channels of one machine: that of the highest score.
@@ -192,7 +198,7 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
         "Files",
         ["#No.", "File", "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],
         (rows.iter().enumerate()).map(|(i, row)| {
-            let mut cells = vec![(i + 1).to_string(), row.name.clone()];
+            let mut cells = vec![(i + 1).to_string(), label(dated.map(|trend| &trend.times), i, &row.name)];
             match &row.found {
                 Ok(found) => cells.extend(found.cells()),
                 Err(_) => cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned)),

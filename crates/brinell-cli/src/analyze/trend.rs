@@ -12,23 +12,25 @@ fn lead(trend: &Trend) -> String {
     let span =
         [trend.times.at.first(), trend.times.at.last()].map(|at| at.map_or(String::new(), |at| trend.times.text(*at)));
     format!(
-        "{} records, {} to {}, by {}. A change is said where scatter alone gives one in any of the levels with a probability of {} % at most; scatter that wanders from record to record is allowed for",
+        "{} records, {} to {}, by {}. A change is said where scatter alone gives one in any of the levels with a probability of {} % at most, so of each with {} %; that scatter of one record is like that of the record before is allowed for",
         trend.records.len(),
         span[0],
         span[1],
         trend.times.source,
         100.0 * brinell_measured::ALPHA,
+        short(100.0 * trend.alpha, 2),
     )
 }
 
 /// First and last value, and what is said: of each level.
 fn rows(trend: &Trend) -> impl Iterator<Item = [String; 4]> {
     trend.levels.iter().map(|of| {
-        let mut points = of.level.points.iter().flatten();
+        let compared = of.level.points.iter().zip(&trend.records).filter(|(_, record)| record.apart.is_none());
+        let mut points = compared.filter_map(|(point, _)| point.as_ref());
         let value = |v: f64| [short(v, 3), of.level.unit.clone()].join(" ").trim_end().to_owned();
         let first = points.next().map_or("-".into(), |p| value(p.value));
         let last = points.next_back().map_or("-".into(), |p| value(p.value));
-        [of.level.name.clone(), first, last, trend.words(of)]
+        [of.level.called(), first, last, trend.words(of)]
     })
 }
 
@@ -43,7 +45,7 @@ pub(super) fn tell(trend: &Trend) {
     for [name, first, last, words] in &rows {
         say!("{name:<a$} {first:>b$} {last:>c$}  {words}");
     }
-    for words in trend.levels.iter().filter_map(|of| trend.limit_words(of)) {
+    for words in trend.levels.iter().flat_map(|of| trend.limit_words(of)) {
         say!("limit {words}");
     }
 }
@@ -54,12 +56,12 @@ const MARKS: &str = "Bars: 95 % intervals; rings: values without one; crosses on
 
 /// Of the page: what changed, and the levels over time.
 pub(super) fn chapters(trend: &Trend) -> Vec<Chapter> {
-    let changes = rows(trend).zip(&trend.levels).map(|([name, first, last, words], of)| {
-        vec![name, first, last, words, trend.limit_words(of).unwrap_or("–".into())]
-    });
+    let changes = rows(trend)
+        .zip(&trend.levels)
+        .map(|([name, first, last, words], of)| vec![name, first, last, words, trend.limit_words(of).join("; ")]);
     let note = lead(trend)
         + ". When a limit is reached is an extrapolation, which holds if growth goes on as it is: no forecast of life.";
-    let table = Table::new("What changed", ["Level", "#First", "#Last", "Trend", "Limit"], changes, note);
+    let table = Table::new("What changed", ["Level", "#First", "#Last", "Trend", "Limits"], changes, note);
     let mut pieces = vec![Piece::Note(MARKS.into())];
     let (scores, levels): (Vec<&Followed>, Vec<&Followed>) = trend.levels.iter().partition(|of| !of.level.by_factors);
     pieces.extend(levels.into_iter().map(|of| plot(trend, &of.level.name, &of.level.label, &[of])).map(Piece::Trend));
@@ -83,12 +85,10 @@ fn plot(trend: &Trend, name: &str, label: &str, of: &[&Followed]) -> IndicatorPl
             })
             .collect(),
     };
-    let changes =
-        of.iter().flat_map(|of| of.outcome.iter().flat_map(|found| &found.changes).map(move |change| (of, change)));
-    let changes =
-        changes.map(|(of, change)| [change.between.0, change.at, change.between.1].map(|k| of.time(change, k)));
+    let changes = of.iter().flat_map(|of| of.outcome.iter().flat_map(|found| &found.changes));
+    let changes = changes.map(|change| [change.between.0, change.at, change.between.1]);
     let limits =
-        of.iter().filter_map(|of| of.limit.as_ref().map(|limit| (limit.value, format!("limit {}", limit.value))));
+        of.iter().flat_map(|of| of.limits.iter().map(|limit| (limit.value, format!("limit {}", limit.text()))));
     let lane = |says: &str, words: &str, tone| {
         let at = trend.records.iter().zip(&trend.times.at).filter(|(record, _)| record.says == says).map(|(_, at)| *at);
         (words.to_owned(), tone, at.collect::<Vec<f64>>())

@@ -19,7 +19,7 @@ pub(crate) struct TrendArgs {
     /// Unit of times that are numbers, in --date or in the names of files
     #[arg(long, value_name = "UNIT", requires = "trend", value_parser = time_unit())]
     pub(crate) date_unit: Option<TimeUnit>,
-    /// Limit of a level: rms_velocity=4.5; repeat it. Levels: rms, rms_velocity (mm/s), peak, crest_factor, kurtosis, size (mm),
+    /// Limit of a level: rms_velocity=4.5; repeat it, of one level too (alert and danger). Levels: rms, rms_velocity (mm/s), peak and crest_factor (of a revolution), kurtosis, size (mm),
     /// score_outer_race, score_inner_race, score_rolling_element, score_cage
     #[arg(long, value_name = "LEVEL=VALUE", requires = "trend", value_parser = limit)]
     pub(crate) limit: Vec<(String, f64)>,

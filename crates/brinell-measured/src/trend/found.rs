@@ -35,8 +35,8 @@ pub struct Followed {
     pub level: Level,
     /// Its changes; `None` of fewer than [`FEWEST`] comparable records.
     pub outcome: Option<Outcome>,
-    /// The limit that was given.
-    pub limit: Option<Limit>,
+    /// The limits that were given, the lowest first.
+    pub limits: Vec<Limit>,
     /// Values of the fit: logarithms of levels that grow by factors.
     pub course: Course,
 }
@@ -80,15 +80,17 @@ impl Trend {
             (files.iter().zip(json).zip(apart)).map(|((file, json), apart)| record(file, json, apart)).collect();
         let alpha = ALPHA / levels.len() as f64;
         let follow = |k: usize| {
-            let limit = limits.iter().rev().find(|(name, _)| *name == levels[k].name);
-            followed(levels[k].clone(), &times, &records, alpha, limit.map(|l| l.1))
+            let mut own: Vec<f64> = limits.iter().filter(|l| l.0 == levels[k].name).map(|l| l.1).collect();
+            own.sort_by(f64::total_cmp);
+            own.dedup();
+            followed(levels[k].clone(), &times, &records, alpha, &own)
         };
         let followed = parallel::map(levels.len(), parallel::threads(levels.len()), follow);
         let mut warnings = Vec::new();
         let out: Vec<&Record> = records.iter().filter(|r| r.apart.is_some()).collect();
         if let Some(first) = out.first() {
             warnings.push(format!(
-                "{} of {} records are not compared with the others, and no change rests on them; the first, {}: {}",
+                "{} of {} records are not compared with the others or with limits; the first, {}: {}",
                 out.len(),
                 records.len(),
                 first.file,
@@ -141,15 +143,17 @@ fn apart(json: &[Value]) -> Vec<Option<String>> {
                 Some(format!("its sample rate is {own} Hz, most have {most} Hz: their levels are not of one range"))
             }
             (_, Some((own, most))) if !near(k, s) => Some(format!(
-                "its shaft turns at {own:.0} r/min, most are within 5 % of {most:.0} r/min: levels depend on speed"
+                "its shaft turns at {own:.0} r/min, {} records at {most:.0} r/min to within 5 %: levels depend on speed",
+                (0..json.len()).filter(|j| known(j) && near(*j, s)).count()
             )),
+            _ if at(&json[k], "/verdict/says") == "too_short" => Some("it is too short for a verdict".into()),
             _ => None,
         }
     };
     (0..json.len()).map(one).collect()
 }
 
-fn followed(level: Level, times: &Times, records: &[Record], alpha: f64, limit: Option<f64>) -> Followed {
+fn followed(level: Level, times: &Times, records: &[Record], alpha: f64, limits: &[f64]) -> Followed {
     let mut course = Course::default();
     for ((point, at), record) in level.points.iter().zip(&times.at).zip(records) {
         let Some(point) = point.filter(|p| record.apart.is_none() && (p.value > 0.0 || !level.by_factors)) else {
@@ -163,9 +167,11 @@ fn followed(level: Level, times: &Times, records: &[Record], alpha: f64, limit: 
     }
     let course = course.grouped();
     let outcome = changes(&course, alpha);
-    let limit = limit.map(|value| {
-        let sides: Vec<Option<Side>> =
-            level.points.iter().map(|p| p.as_ref().map(|p: &Point| Side::of(p, value))).collect();
+    let limits = limits.iter().map(|&value| {
+        let side = |(point, record): (&Option<Point>, &Record)| {
+            point.filter(|_| record.apart.is_none()).map(|point| Side::of(&point, value))
+        };
+        let sides: Vec<Option<Side>> = level.points.iter().zip(records).map(side).collect();
         let last = sides.iter().rev().flatten().next();
         let reach = match (&outcome, last.is_some_and(|side| side.is_above())) {
             (_, true) => Err(NoReach::Above),
@@ -178,21 +184,14 @@ fn followed(level: Level, times: &Times, records: &[Record], alpha: f64, limit: 
         };
         Limit { value, sides, reach }
     });
-    Followed { level, outcome, limit, course }
+    let limits = limits.collect();
+    Followed { level, outcome, limits, course }
 }
 
 impl Followed {
     /// The value at a record of the fit, in the level's unit.
     pub fn value(&self, y: f64) -> f64 {
         if self.level.by_factors { y.exp() } else { y }
-    }
-
-    /// The time of a change: between the records where a step is, or at that from which it grows.
-    pub fn time(&self, change: &Change, place: usize) -> f64 {
-        match change.kind {
-            Kind::Step => 0.5 * (self.course.t[place] + self.course.t[place - 1]),
-            Kind::Growth => self.course.t[place],
-        }
     }
 
     /// Doubling time of growth by factors with its interval, in the unit of time; negative where it halves.

@@ -2,6 +2,7 @@
 
 use super::found::{ALPHA, Followed, Trend};
 use super::level::Point;
+use super::limit::Limit;
 use brinell::signal::Written;
 use brinell::signal::trend::{Change, Kind};
 use serde_json::{Value, json};
@@ -32,7 +33,7 @@ impl Trend {
 
     fn level(&self, of: &Followed) -> Value {
         let outcome = of.outcome.as_ref();
-        let limit = of.limit.as_ref().map(|limit| {
+        let limit = |limit: &Limit| {
             let reach = limit.reach.as_ref();
             let first = |k: Option<usize>| k.map(|k| self.moment(self.times.at[k]));
             json!({
@@ -45,7 +46,7 @@ impl Trend {
                 })),
                 "not_reached_why": reach.err().map(ToString::to_string),
             })
-        });
+        };
         json!({
             "name": of.level.name,
             "unit": of.level.unit,
@@ -53,12 +54,11 @@ impl Trend {
             "says": self.words(of),
             "p": outcome.map(|outcome| outcome.p),
             "changes": outcome.map(|outcome| outcome.changes.iter().map(|c| self.changed(of, c)).collect::<Vec<_>>()),
-            "limit": limit,
+            "limits": of.limits.iter().map(limit).collect::<Vec<_>>(),
         })
     }
 
     fn changed(&self, of: &Followed, change: &Change) -> Value {
-        let moment = |k: usize| self.moment(of.time(change, k));
         let ends = change.by.interval.map(|i| (i.low, i.high));
         let (kind, factor, by) = match (change.kind, of.level.by_factors) {
             (Kind::Step, true) => {
@@ -71,7 +71,7 @@ impl Trend {
         let rate = (change.kind == Kind::Growth && of.level.by_factors).then(|| Written::from(change.by));
         json!({
             "kind": kind,
-            "at": moment(change.at), "earliest": moment(change.between.0), "latest": moment(change.between.1),
+            "at": self.moment(change.at), "earliest": self.moment(change.between.0), "latest": self.moment(change.between.1),
             "factor": factor,
             "by": by,
             "rate_of_logarithm": rate,
@@ -91,7 +91,7 @@ impl Trend {
             true => format!("\"{}\"", text.replace('"', "\"\"")),
             false => text.to_owned(),
         };
-        let mut text = "file,date,at,says,damage".to_owned();
+        let mut text = "file,date,at,says,damage,not_compared".to_owned();
         for of in &self.levels {
             let unit = if of.level.unit.is_empty() { String::new() } else { format!(" [{}]", of.level.unit) };
             for part in ["", "_low", "_high"] {
@@ -101,7 +101,8 @@ impl Trend {
         for (k, record) in self.records.iter().enumerate() {
             let damage = record.damage.join(" ");
             let date = self.times.iso(k).unwrap_or_default();
-            text += &format!("\n{},{date},{},{},{damage}", quoted(&record.file), self.times.at[k], record.says);
+            let apart = quoted(record.apart.as_deref().unwrap_or_default());
+            text += &format!("\n{},{date},{},{},{damage},{apart}", quoted(&record.file), self.times.at[k], record.says);
             for of in &self.levels {
                 let point = of.level.points[k];
                 let ends = point.and_then(|p| p.interval).unzip();

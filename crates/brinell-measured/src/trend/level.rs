@@ -26,6 +26,16 @@ pub struct Level {
     pub points: Vec<Option<Point>>,
 }
 
+impl Level {
+    /// Its name, and where another number has it too, of what it is.
+    pub fn called(&self) -> String {
+        match &*self.name {
+            "peak" | "crest_factor" => format!("{} of a revolution", self.name),
+            name => name.to_owned(),
+        }
+    }
+}
+
 /// Name, what it is, and where it is in a record's JSON.
 const LEVELS: [(&str, &str, &str); 6] = [
     ("rms", "RMS", "/indicators/rms"),
@@ -75,6 +85,8 @@ pub(super) fn levels(records: &[Value]) -> Vec<Level> {
             }
         }
     }
+    let place = |component: &str| PARTS.iter().position(|part| *part == component);
+    scores.sort_by_key(|(_, component, _)| place(component));
     for (bearing, component, frequency) in scores {
         let of = |parts: &Vec<(Option<&str>, &Value)>| {
             let (_, one) = parts.iter().find(|part| part.0 == bearing)?;

@@ -1,6 +1,7 @@
 //! A limit that the user gives, and on which side of it the records are.
 
 use super::level::Point;
+use brinell::signal::short;
 use brinell::signal::trend::Reach;
 
 /// On which side of a limit a value is.
@@ -63,6 +64,12 @@ pub enum NoReach {
 }
 
 impl Limit {
+    /// The value as it was given, unless that is long.
+    pub fn text(&self) -> String {
+        let plain = self.value.to_string();
+        if plain.len() <= 10 { plain } else { short(self.value, 4) }
+    }
+
     /// The first record above it, whether its interval is or not.
     pub fn first_above(&self) -> Option<usize> {
         self.sides.iter().position(|side| side.is_some_and(Side::is_above))

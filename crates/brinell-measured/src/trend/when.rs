@@ -1,7 +1,7 @@
 //! When records were taken: dates or numbers that were given, or those in the names of files.
 
 use crate::problem::Problem;
-use chrono::{DateTime, Datelike, NaiveDate, NaiveDateTime};
+use chrono::{DateTime, Datelike, FixedOffset, NaiveDate, NaiveDateTime};
 use std::path::Path;
 
 /// The unit of times that are numbers.
@@ -42,6 +42,11 @@ impl TimeUnit {
 
     pub(super) fn seconds(self) -> f64 {
         self.row().2
+    }
+
+    /// The shorter of two.
+    fn min_of(self, other: Self) -> Self {
+        if self.seconds() < other.seconds() { self } else { other }
     }
 }
 
@@ -86,7 +91,7 @@ impl Times {
         let texts: Vec<&str> =
             if named { files.iter().map(String::as_str).collect() } else { given.iter().map(String::as_str).collect() };
         let dates: Vec<Option<NaiveDateTime>> =
-            texts.iter().map(|text| if named { of_path(text) } else { date(text) }).collect::<Result<_, _>>()?;
+            texts.iter().map(|text| if named { of_path(text) } else { given_date(text) }).collect::<Result<_, _>>()?;
         let without = dates.iter().position(Option::is_none);
         match (without, named) {
             (None, _) => dated(
@@ -103,6 +108,11 @@ impl Times {
                 files[k]
             )),
             _ => match numbers_of(files) {
+                Some(numbers) if unit.is_none() && numbers.iter().all(|n| EPOCHS.contains(n)) => {
+                    let dates = numbers.iter().map(|n| DateTime::from_timestamp(*n as i64, 0).map(|d| d.naive_utc()));
+                    let dates: Vec<NaiveDateTime> = dates.collect::<Option<_>>().unwrap_or_default();
+                    dated(files, &dates, "the seconds since 1970 in the names of the files")
+                }
                 Some(numbers) => {
                     let source = "the numbers in the names of the files".to_owned();
                     let source = unit.map_or(source.clone(), |unit| format!("{source}, in {}s", unit.word()));
@@ -145,12 +155,20 @@ impl Times {
 
     /// The date of a record as ISO 8601, where there are dates.
     pub fn iso(&self, record: usize) -> Option<String> {
-        self.dates.get(record).map(|date| date.format("%Y-%m-%dT%H:%M:%S").to_string())
+        self.dates.get(record).map(|date| date.format("%Y-%m-%dT%H:%M:%S%.f").to_string())
     }
 
-    /// What a span of time is counted in: `days`.
-    pub fn words(&self) -> String {
-        self.unit.map_or("records".into(), |unit| format!("{}s", unit.word()))
+    /// What times count: `day`.
+    pub fn word(&self) -> &'static str {
+        self.unit.map_or("record", TimeUnit::word)
+    }
+
+    /// The unit in which a span of time is 1 or more, where there is one, and how many of them one of [`word`](Self::word) is.
+    pub fn counted(&self, span: f64) -> (&'static str, f64) {
+        let Some(unit) = self.unit else { return ("record", 1.0) };
+        let fits = TimeUnit::ALL.into_iter().rev().find(|one| one.seconds() <= span * unit.seconds());
+        let of = fits.unwrap_or(TimeUnit::Second).min_of(unit);
+        (of.word(), unit.seconds() / of.seconds())
     }
 
     /// Few places for numbers on an axis from `low` to `high`, with their words.
@@ -243,6 +261,32 @@ fn ordered<T: PartialOrd>(files: &[String], times: &[T], words: impl Fn(&T) -> S
     }
 }
 
+/// Numbers in names that are seconds since 1970: of the years 2001 to 2099. Other counts do not have ten digits.
+const EPOCHS: std::ops::Range<f64> = 1e9..4.1e9;
+
+/// A date that was given, of which nothing is left over.
+fn given_date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
+    let text = text.trim();
+    for day in ["%Y-%m-%d", "%Y%m%d"] {
+        for between in ["T", " "] {
+            for clock in ["%H:%M:%S%.f", "%H:%M", "%H%M%S"] {
+                let naive = format!("{day}{between}{clock}");
+                for zone in ["%#z", " %#z"] {
+                    if let Ok(found) = DateTime::parse_from_str(text, &format!("{naive}{zone}")) {
+                        return Ok(Some(found.naive_utc()));
+                    }
+                }
+                let unzoned = text.strip_suffix(['Z', 'z']).unwrap_or(text);
+                if let Ok(found) = NaiveDateTime::parse_from_str(unzoned, &naive) {
+                    return Ok(Some(found));
+                }
+            }
+        }
+    }
+    // As in names, such as 2004.02.12.10.32.39.
+    Ok(date_and_rest(text)?.filter(|(_, rest)| rest.is_empty()).map(|(date, _)| date))
+}
+
 /// The date in a file's name, or in that of its folder.
 fn of_path(path: &str) -> Result<Option<NaiveDateTime>, Problem> {
     let path = Path::new(path);
@@ -255,9 +299,17 @@ fn of_path(path: &str) -> Result<Option<NaiveDateTime>, Problem> {
     Ok(None)
 }
 
-/// The first date in a text: ISO 8601, with any of - . _ : and blanks between its numbers or none.
+/// The first date in a text: ISO 8601, with any of - . _ : and blanks between its numbers or none; a zone behind it counts.
 fn date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
-    const FORMATS: [&str; 8] = [
+    let Some((date, rest)) = date_and_rest(text)? else { return Ok(None) };
+    let zone: String = rest.chars().take(6).collect();
+    let ahead = zone.parse::<FixedOffset>().ok().filter(|_| zone.len() == 6 && zone.contains(':'));
+    Ok(Some(ahead.and_then(|ahead| date.checked_sub_offset(ahead)).unwrap_or(date)))
+}
+
+/// The first date in a text without regard to its zone, and what is behind it.
+fn date_and_rest(text: &str) -> Result<Option<(NaiveDateTime, &str)>, Problem> {
+    const FORMATS: [&str; 11] = [
         "%Y-%m-%d-%H-%M-%S",
         "%Y-%m-%d-%H%M%S",
         "%Y%m%d-%H%M%S",
@@ -265,16 +317,21 @@ fn date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
         "%Y-%m-%d-%H-%M",
         "%Y-%m-%d-%H%M",
         "%Y%m%d-%H%M",
+        "%Y%m%d%H%M",
         "%Y-%m-%d",
+        "%d-%b-%Y-%H-%M-%S",
+        "%d-%b-%Y",
     ];
-    if let Ok(with_zone) = DateTime::parse_from_rfc3339(text.trim()) {
-        return Ok(Some(with_zone.naive_utc()));
-    }
     let bytes = text.as_bytes();
     let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
     let plain: String = (text.char_indices())
         .map(|(i, c)| {
-            if matches!(c, 'T' | 't' | ' ' | '.' | '_' | ':') && i > 0 && digit(i - 1) && digit(i + 1) {
+            // A month may be a word.
+            let joins =
+                |of: fn(&u8) -> bool| i > 0 && bytes.get(i - 1).is_some_and(of) && bytes.get(i + 1).is_some_and(of);
+            if matches!(c, 'T' | 't') && joins(u8::is_ascii_digit)
+                || matches!(c, ' ' | '.' | '_' | ':') && joins(u8::is_ascii_alphanumeric)
+            {
                 '-'
             } else {
                 c
@@ -296,14 +353,14 @@ fn date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
                 && ends(left)
                 && plausible(&date.date())
             {
-                return Ok(Some(date));
+                return Ok(Some((date, &text[text.len() - left.len()..])));
             }
         }
         if let Ok((d, left)) = NaiveDate::parse_and_remainder(rest, "%Y%m%d")
             && ends(left)
             && plausible(&d)
         {
-            return Ok(Some(d.and_time(chrono::NaiveTime::MIN)));
+            return Ok(Some((d.and_time(chrono::NaiveTime::MIN), &text[text.len() - left.len()..])));
         }
         unclear(text, &rest.replace('/', "-"))?;
     }
@@ -328,9 +385,14 @@ fn unclear(text: &str, rest: &str) -> Result<(), Problem> {
     }
 }
 
-/// The number in which names differ, where they differ in one alone.
+/// The number in which names differ, where they differ in one alone; of files that are all called the same, that of their folders.
 fn numbers_of(files: &[String]) -> Option<Vec<f64>> {
-    let stem = |file: &String| Path::new(file).file_stem().map(|name| name.to_string_lossy().into_owned());
+    differing(files, |file| Path::new(file).file_stem())
+        .or_else(|| differing(files, |file| Path::new(file).parent()?.file_name()))
+}
+
+fn differing(files: &[String], name: fn(&String) -> Option<&std::ffi::OsStr>) -> Option<Vec<f64>> {
+    let stem = |file: &String| name(file).map(|name| name.to_string_lossy().into_owned());
     let digits = |name: String| -> Vec<f64> {
         name.split(|c: char| !c.is_ascii_digit()).filter_map(|digits| digits.parse().ok()).collect()
     };
@@ -375,6 +437,24 @@ mod tests {
         ] {
             assert_eq!(date(name).unwrap().unwrap().to_string(), day, "{name}");
         }
+        for given in [
+            "2004-02-12T12:32:39+0200",
+            "2004-02-12 12:32:39 +02:00",
+            "2004-02-12T12:32:39+02",
+            "2004-02-12 10:32:39Z",
+            "2004.02.12.10.32.39",
+            "20040212T103239",
+        ] {
+            assert_eq!(given_date(given).unwrap().unwrap().to_string(), "2004-02-12 10:32:39", "{given}");
+        }
+        for (name, time) in [
+            ("2004-02-12T12:32:39+02:00.npz", "2004-02-12 10:32:39"),
+            ("200402121032.npz", "2004-02-12 10:32:00"),
+            ("rig 12-Feb-2004.csv", "2004-02-12 00:00:00"),
+            ("12_feb_2004_10_32_39.csv", "2004-02-12 10:32:39"),
+        ] {
+            assert_eq!(date(name).unwrap().unwrap().to_string(), time, "{name}");
+        }
         for name in ["acc_00001.csv", "105.mat", "rig_1730_or_12.npz", "99999999.csv", "6205-2RS.csv"] {
             assert_eq!(date(name).unwrap(), None, "{name}");
         }
@@ -393,6 +473,11 @@ mod tests {
             (&files, &["monday", "12"], Some(TimeUnit::Hour), "--date-unit h: expected a number"),
             (&["2024-05-01.csv", "b.csv"], &[], None, "b.csv: no date in its name, as others have one"),
             (&["acc_1.csv", "b.csv"], &[], Some(TimeUnit::Hour), "do not differ in one number"),
+            // What is left over may mean another time.
+            (&files, &["2024-02-12T25:00:00", "2024-05-01"], None, "--date 2024-02-12T25:00:00: expected a date as"),
+            (&files, &["2024-02-12 10:32 PM", "2024-05-01"], None, "--date 2024-02-12 10:32 PM: expected a date as"),
+            (&files, &["2024-02-12T10:32:39 CET", "2024-05-01"], None, "CET: expected a date as"),
+            (&files, &["2024-02-12x", "2024-05-01"], None, "--date 2024-02-12x: expected a date as"),
         ] {
             let error = of(files, given, unit).unwrap_err();
             assert!(error.contains(words), "{error}\n{words}");
@@ -404,11 +489,16 @@ mod tests {
         let (order, times) = of(&["2024-03-05.csv", "2024-03-01.csv", "2024-03-11.csv"], &[], None).unwrap();
         assert_eq!((order, &times.at[..]), (vec![1, 0, 2], &[0.0, 4.0, 10.0][..]));
         assert_eq!(
-            (times.text(4.0), times.words(), times.iso(1)),
-            ("2024-03-05".into(), "days".into(), Some("2024-03-05T00:00:00".into()))
+            (times.text(4.0), times.word(), times.iso(1)),
+            ("2024-03-05".into(), "day", Some("2024-03-05T00:00:00".into()))
         );
         let (order, times) = of(&["acc_10.csv", "acc_2.csv"], &[], Some(TimeUnit::Minute)).unwrap();
         assert_eq!((order, &times.at[..], times.text(2.0)), (vec![1, 0], &[2.0, 10.0][..], "2 min".into()));
+        let (order, times) = of(&["r/run-10/signals.npz", "r/run-2/signals.npz"], &[], None).unwrap();
+        assert_eq!((order, &times.at[..]), (vec![1, 0], &[2.0, 10.0][..]));
+        let (_, times) = of(&["1707700000.npz", "1707703600.npz", "1707786400.npz"], &[], None).unwrap();
+        assert_eq!(times.iso(0).unwrap(), "2024-02-12T01:06:40");
+        assert_eq!((times.word(), times.counted(2.0), times.counted(0.5)), ("hour", ("hour", 1.0), ("minute", 60.0)));
         let (_, times) = of(&["x.csv", "y.csv"], &[], None).unwrap();
         assert_eq!((times.at, times.source), (vec![1.0, 2.0], "the order of the files".into()));
     }

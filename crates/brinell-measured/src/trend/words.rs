@@ -1,7 +1,7 @@
 //! A trend in words.
 
 use super::found::{Followed, Trend};
-use super::limit::NoReach;
+use super::limit::{Limit, NoReach};
 use brinell::signal::short;
 use brinell::signal::trend::{Change, FEWEST, Kind, Reach};
 
@@ -15,7 +15,11 @@ impl Trend {
             return format!("changed (p = {}), not clear whether in level or in scatter", short(outcome.p, 2));
         }
         if outcome.changes.is_empty() {
-            return format!("no change found (p = {})", short(outcome.p, 2));
+            return format!(
+                "no change found (p = {}, {} or less is needed)",
+                short(outcome.p, 2),
+                short(self.alpha, 2)
+            );
         }
         let all: Vec<String> = outcome.changes.iter().map(|change| self.change(of, change)).collect();
         all.join("; ")
@@ -23,8 +27,7 @@ impl Trend {
 
     /// A change in words: when, and how much.
     pub fn change(&self, of: &Followed, change: &Change) -> String {
-        let [at, low, high] =
-            [change.at, change.between.0, change.between.1].map(|k| self.times.text(of.time(change, k)));
+        let [at, low, high] = [change.at, change.between.0, change.between.1].map(|at| self.times.text(at));
         let when = if low == high { at } else { format!("{at} ({low} to {high})") };
         let (value, (low, high)) =
             (change.by.value, change.by.interval.map_or((f64::NAN, f64::NAN), |i| (i.low, i.high)));
@@ -33,7 +36,6 @@ impl Trend {
             format!("{} ({} to {})", short(scale(value), 3), short(low.min(high), 3), short(low.max(high), 3))
         };
         let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
-        let each = self.times.words();
         match (change.kind, of.level.by_factors, of.doubling(change)) {
             (Kind::Step, true, _) => format!("step at {when} by a factor of {}", numbers(&f64::exp, 1.0)),
             (Kind::Step, false, _) => format!("step at {when} by {}{unit}", numbers(&|v| v, 1.0)),
@@ -42,41 +44,47 @@ impl Trend {
                 let every = if time.value > 0.0 { "doubles" } else { "halves" };
                 let (low, high) = time.interval.unwrap_or((f64::NAN, f64::NAN));
                 let (low, high) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
-                let time = short(time.value.abs(), 3);
-                format!("{verb} {when}: {every} every {time} ({} to {}) {each}", short(low, 3), short(high, 3))
+                let (unit, scale) = self.times.counted(time.value.abs());
+                let [time, low, high] = [time.value.abs(), low, high].map(|time| short(scale * time, 3));
+                format!("{verb} {when}: {every} every {time} ({low} to {high}) {unit}s")
             }
             (Kind::Growth, true, None) => format!("levels off from {when}"),
             (Kind::Growth, false, _) if low <= 0.0 && high >= 0.0 => format!("levels off from {when}"),
             (Kind::Growth, false, _) => {
                 let verb = if value > 0.0 { "grows from" } else { "falls from" };
-                format!("{verb} {when} by {}{unit} in each of the {each}", numbers(&|v| v, 1.0))
+                format!("{verb} {when} by {}{unit} a {}", numbers(&|v| v, 1.0), self.times.word())
             }
         }
     }
 
-    /// What is said of a limit.
-    pub fn limit_words(&self, of: &Followed) -> Option<String> {
-        let limit = of.limit.as_ref()?;
+    /// What is said of each limit.
+    pub fn limit_words(&self, of: &Followed) -> Vec<String> {
+        of.limits.iter().map(|limit| self.of_limit(of, limit)).collect()
+    }
+
+    fn of_limit(&self, of: &Followed, limit: &Limit) -> String {
         let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
         let when =
             |record: usize| format!("{} ({})", self.times.text(self.times.at[record]), self.records[record].file);
         let above = match (limit.first_above(), limit.first_surely_above()) {
             (None, _) => "no record is above".to_owned(),
             (Some(first), Some(sure)) if first == sure => format!("first above at {}", when(first)),
-            (Some(first), Some(sure)) => format!("first above at {}, with its interval at {}", when(first), when(sure)),
-            (Some(first), None) => format!("first above at {}, no record with its interval", when(first)),
+            (Some(first), Some(sure)) => {
+                format!("first above at {}, with its whole interval at {}", when(first), when(sure))
+            }
+            (Some(first), None) => format!("first above at {}; no record's whole interval is above", when(first)),
         };
         let reach = match limit.reach {
             Ok(reach) => format!("; {}", self.reach(&reach)),
             Err(NoReach::Above) => String::new(),
             Err(why) => format!("; {why}"),
         };
-        Some(format!("{} {}{unit}: {above}{reach}", of.level.name, limit.value))
+        format!("{} {}{unit}: {above}{reach}", of.level.called(), limit.text())
     }
 
     fn reach(&self, reach: &Reach) -> String {
         let low = self.times.text(reach.low);
-        let high = reach.high.map_or("not bounded above".into(), |high| format!("to {}", self.times.text(high)));
+        let high = reach.high.map_or("and later, without end".into(), |high| format!("to {}", self.times.text(high)));
         format!("extrapolated at the rate of the last records: reached at {} ({low} {high})", self.times.text(reach.at))
     }
 }

@@ -19,10 +19,10 @@ const DEPTH: usize = 3;
 pub struct Change {
     /// What changed.
     pub kind: Kind,
-    /// Index of the first record of the new level, or of the last before growth.
-    pub at: usize,
-    /// The same, least and greatest: 95 %.
-    pub between: (usize, usize),
+    /// When: halfway between two records for a step; growth may begin at a record or between two.
+    pub at: f64,
+    /// Not before and not after: 95 %. A step is between two records, at the least.
+    pub between: (f64, f64),
     /// How much: the step, or the growth in a unit of time; with its 95 % interval.
     pub by: Estimate,
     /// Probability of such a gain by scatter alone.
@@ -52,7 +52,7 @@ pub fn changes(course: &Course, alpha: f64) -> Option<Outcome> {
     }
     let mut found = Vec::new();
     let p = test(&course.calmed(), (0, n, Base::Level), alpha, DEPTH, &mut found);
-    found.sort_by_key(|change: &Change| change.at);
+    found.sort_by(|a: &Change, b: &Change| a.at.total_cmp(&b.at));
     Some(Outcome { changes: found, p })
 }
 
@@ -62,6 +62,10 @@ fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, f
         return 1.0;
     }
     let stretch = Stretch::of(course, from, to);
+    // Values that are all alike do not change, whatever their rounding.
+    if stretch.is_constant() {
+        return 1.0;
+    }
     let search = Search::new(&stretch, base);
     let best = search.best(&stretch.y);
     let p = by_scatter(&search, &stretch, base, &best, alpha);
@@ -79,23 +83,29 @@ fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, f
     });
     // Otherwise the scatter changes, and not the level.
     let Some((kind, of)) = clear else { return p };
-    let unit = if kind == Kind::Step { 1.0 } else { 1.0 / (course.t[to - 1] - course.t[from]) };
+    let (begin, span) = (course.t[from], course.t[to - 1] - course.t[from]);
+    let unit = if kind == Kind::Step { 1.0 } else { 1.0 / span };
     let (low, high) = of.by_between;
     let interval = Interval { low: unit * low, high: unit * high, freedom: stretch.len() as u32 };
-    let at = from + of.place;
+    let time = |t: f64| begin + span * t;
     found.push(Change {
         kind,
-        at,
-        between: (from + of.between.0, from + of.between.1),
+        at: time(of.time),
+        between: (time(of.between.0), time(of.between.1)),
         by: Estimate { value: unit * of.by, interval: Some(interval) },
         p,
         correlation: of.rho,
         part,
         best,
     });
+    let at = from + of.record;
     let (left, right) = match kind {
         Kind::Step => ((from, at, base), (at, to, Base::Level)),
-        Kind::Growth => ((from, at + 1, base), (at, to, Base::Line)),
+        Kind::Growth => {
+            // The line begins at the record nearest to the onset.
+            let begins = at + usize::from(of.time > 0.5 * (stretch.t[of.record] + stretch.t[of.record + 1]));
+            ((from, at + 1, base), (begins, to, Base::Line))
+        }
     };
     test(course, left, alpha, depth - 1, found);
     test(course, right, alpha, depth - 1, found);

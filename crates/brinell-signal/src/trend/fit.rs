@@ -32,6 +32,11 @@ pub enum Kind {
     Growth,
 }
 
+/// What a difference of these values counts as none below: numbers of a file have so many digits.
+fn digits(y: &[f64]) -> f64 {
+    1e-4 * (1.0 + y.iter().fold(0.0, |m: f64, y| m.max(y.abs())))
+}
+
 /// A stretch of records: times from 0 to 1, values, and the weight of each record (inverse of the root of its variance).
 #[derive(Debug, Clone)]
 pub(super) struct Stretch {
@@ -50,8 +55,7 @@ impl Stretch {
         let (y, s) = (&course.y[from..to], &course.s[from..to]);
         let squares: Vec<f64> = y.windows(2).map(|p| 0.5 * (p[1] - p[0]).powi(2) / 0.455).collect();
         let scatter = (median(&squares) - median(&s.iter().map(|s| s * s).collect::<Vec<_>>())).max(0.0);
-        // Numbers of a file have so many digits.
-        let digits = 1e-4 * (1.0 + y.iter().fold(0.0, |m: f64, y| m.max(y.abs())));
+        let digits = digits(y);
         let own: Vec<f64> = s.iter().map(|s| s * s + digits * digits).collect();
         let variance = own.iter().map(|own| scatter + own).collect();
         Self::weighted(course.t[from..to].iter().map(|t| (t - t0) / span).collect(), y.to_vec(), own, variance)
@@ -68,6 +72,12 @@ impl Stretch {
         let before = before(best.kind, best.fit.0);
         let variance = self.weight.iter().enumerate().map(|(i, w)| best.variances[usize::from(i >= before)] / (w * w));
         Self::weighted(self.t.clone(), self.y.clone(), self.own.clone(), variance.collect())
+    }
+
+    /// Whether all values are the same to the digits that count.
+    pub(super) fn is_constant(&self) -> bool {
+        let (low, high) = self.y.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, y| (b.0.min(*y), b.1.max(*y)));
+        high - low <= digits(&self.y)
     }
 
     pub(super) fn len(&self) -> usize {
@@ -118,17 +128,17 @@ impl Stretch {
         }
     }
 
-    /// Columns whose last one's coefficient is the step, or the growth behind the place.
-    pub(super) fn columns(&self, base: Base, kind: Kind, k: usize, rho: f64) -> Vec<Vec<f64>> {
+    /// Columns whose last one's coefficient is the step from record `k` on, or the growth from the time `from` on.
+    pub(super) fn columns(&self, base: Base, kind: Kind, (k, from): (usize, f64), rho: f64) -> Vec<Vec<f64>> {
         let mut all = vec![vec![1.0; self.len()]];
         match (base, kind) {
             (Base::Level, _) => {}
             (Base::Line, Kind::Step) => all.push(self.t.clone()),
-            (Base::Line, Kind::Growth) => all.push(self.t.iter().map(|t| t.min(self.t[k])).collect()),
+            (Base::Line, Kind::Growth) => all.push(self.t.iter().map(|t| t.min(from)).collect()),
         }
         all.push(match kind {
             Kind::Step => (0..self.len()).map(|i| f64::from(u8::from(i >= k))).collect(),
-            Kind::Growth => self.t.iter().map(|t| (t - self.t[k]).max(0.0)).collect(),
+            Kind::Growth => self.t.iter().map(|t| (t - from).max(0.0)).collect(),
         });
         all.iter().map(|x| self.whitened(x, rho)).collect()
     }
@@ -210,7 +220,7 @@ impl<'a> Search<'a> {
     /// What is new in each record, and in no level with this change, in units of its standard deviation.
     pub(super) fn innovations(&self, best: &Best) -> Vec<f64> {
         let (place, rho) = best.fit;
-        let columns = orthonormal(self.stretch.columns(self.base, best.kind, place, rho)).0;
+        let columns = orthonormal(self.stretch.columns(self.base, best.kind, (place, self.stretch.t[place]), rho)).0;
         let (_, mut left) = self.stretch.left(&self.stretch.y, rho, &columns);
         let mean = left.iter().sum::<f64>() / left.len() as f64;
         let before = before(best.kind, place);

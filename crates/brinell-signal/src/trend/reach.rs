@@ -27,7 +27,7 @@ pub(super) fn reach(profile: &Profile, limit: f64) -> Option<Reach> {
     let allowed: Vec<&Fit> = profile.above(profile.least()).collect();
     let likelihood = |time: f64| {
         let of = |fit: &&Fit| {
-            let (at, rho) = (s.t[fit.place], fit.rho);
+            let (at, rho) = (Profile::onset(fit), fit.rho);
             let mut columns = Vec::new();
             if profile.base == Base::Line {
                 columns.push(s.whitened(&s.t.iter().map(|t| t.min(at) - at).collect::<Vec<_>>(), rho));
