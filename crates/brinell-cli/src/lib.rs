@@ -11,6 +11,7 @@ mod check;
 mod cli;
 mod coefficients;
 mod compare;
+mod confined;
 mod dataset;
 mod defect;
 mod diff;
@@ -20,6 +21,7 @@ mod files;
 mod init;
 mod inputs;
 mod look_up;
+mod mcp;
 mod open;
 mod progress;
 mod reproduce;
@@ -124,6 +126,7 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Reproduce(args) => reproduce::reproduce(&args),
         Command::Dataset(args) => dataset::dataset(&args),
         Command::Studio(args) => studio::studio(&args),
+        Command::Mcp(args) => mcp::mcp(&Cli::command(), &args),
         Command::Schema(args) => look_up::schema(&args),
         Command::Diff(args) => diff::diff(&args),
         Command::Open(args) => open::open(&args),
