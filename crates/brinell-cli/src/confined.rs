@@ -35,7 +35,7 @@ pub(crate) fn check_read(path: &Path, beside: &str) -> Result<(), Failure> {
 
 fn refusal(path: &Path) -> Failure {
     Failure::Usage(format!(
-        "{}: outside of the folder that `brinell mcp` was given; allowed: paths from that folder on that stay within it, links followed",
+        "{}: outside of the folder that `brinell mcp` was given; allowed: paths that count from it and stay within it, links followed",
         path.display()
     ))
 }

@@ -90,7 +90,7 @@ impl Agent {
     /// Standard input ends, and with it the server.
     fn leaves(mut self) {
         drop(self.input.take());
-        let left: Vec<String> = self.output.by_ref().lines().map(|line| line.expect("it is text")).collect();
+        let left: Vec<String> = (&mut self.output).lines().map(|line| line.expect("it is text")).collect();
         assert_eq!(left, [""; 0]);
         let ended = self.process.wait_with_output().expect("brinell ends");
         assert_eq!((ended.status.code(), String::from_utf8_lossy(&ended.stderr).as_ref()), (Some(0), ""));
@@ -189,6 +189,16 @@ fn prop_tools_answer_with_what_the_commands_print() {
         rows.iter().map(|row| (row.0.as_f64(), row.1)).eq(expected.iter().map(|row| (row.0.as_f64(), &row.1))),
         "{swept}"
     );
+    let only = json!(["rows.operation.speed_rpm", "points.complete", "none"]);
+    let resumed = json!({ "scenario": "short.toml", "vary": vary, "output": "swept", "only": only });
+    let parts = agent.call("sweep", &resumed);
+    let expected =
+        json!({ "rows.operation.speed_rpm": [1500.0, 1500.0, 1600.0, 1600.0], "points.complete": 4, "none": null });
+    assert_eq!(parts["structuredContent"], expected);
+    assert!(
+        parts["content"][1]["text"].as_str().unwrap().contains("only: none is not in the record, which has brinell"),
+        "{parts}"
+    );
     agent.leaves();
 }
 
@@ -256,13 +266,18 @@ fn prop_bad_input_is_refused_with_words_and_the_server_goes_on() {
         json!({ "scenario": "short.toml", "no_report": "yes" }),
         &["no_report = \"yes\": expected true or false"],
     );
-    refuses("run", json!({ "scenario": "short.toml", "set": { "simulation.duration_s": 1e6 } }), &["most_steps"]);
+    refuses("run", json!({ "scenario": "short.toml", "set": { "simulation.duration_s": 1e5 } }), &["most_steps"]);
     refuses("analyze", json!({ "files": ["short.toml"] }), &["is no file of signals"]);
     refuses("analyze", json!({ "files": ["x.csv"], "band_hz": ["--json=x", "--quiet"] }), &["expected two numbers"]);
     refuses("sweep", json!({ "scenario": "short.toml" }), &["nothing varies"]);
     // What looks like an option is a value.
     refuses("check", json!({ "scenario": "--help" }), &["cannot read --help"]);
-    refuses("check", json!({ "scenario": "-" }), &["error"]);
+    refuses("check", json!({ "scenario": "-" }), &["cannot read ./-"]);
+    refuses(
+        "check",
+        json!({ "scenario": "short.toml", "only": [[]] }),
+        &["only = [[]]: expected a list, each of its values a text"],
+    );
     refuses("analyze", json!({ "files": ["--json=x.json"] }), &["--json=x.json"]);
     refuses("run", json!({ "scenario": "short.toml", "output": "a\u{0}b" }), &["error"]);
     assert_eq!(files(folder.path()), ["bad.toml", "short.toml"]);
@@ -298,6 +313,9 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
     }
     let short = |path: &Path| fs::write(path, SHORT).unwrap();
     short(&folder.join("short.toml"));
+    // Whose law takes tables.
+    let half_space = SHORT.replace("laws = \"li2023\"\n", "");
+    fs::write(folder.join("half-space.toml"), &half_space).unwrap();
     // Each would do, were it in the folder.
     short(&outside.join("short.toml"));
     fs::write(outside.join("secret.toml"), SECRET).unwrap();
@@ -318,7 +336,7 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
         let name = format!("{}.toml", files(&folder).len());
         let old = "shape = { rectangle = { length_mm = 2.0, width_mm = 4.0 } }";
         assert!(SHORT.contains(old));
-        fs::write(folder.join(&name), SHORT.replace(old, shape)).unwrap();
+        fs::write(folder.join(&name), half_space.replace(old, shape)).unwrap();
         name
     };
     let image = |file: &str| {
@@ -327,8 +345,10 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
     let named = [
         shape(&image("../outside/spall.png")),
         shape(&image(&absolute("spall.png"))),
-        shape("shape = { svg = { file = \"../outside/spall.svg\", rolling_direction = \"right\" } }"),
-        shape("shape = { depth_map = { file = \"../outside/depth.csv\", step_mm = [0.5, 0.5] } }"),
+        shape("shape = { svg = { file = \"../outside/spall.svg\" } }"),
+        shape(
+            "shape = { depth_map = { file = \"../outside/depth.csv\", ds_mm = 0.5, dz_mm = 0.5, rolling_direction = \"right\" } }",
+        ),
         shape("shape = { rectangle = { length_mm = 2.0, width_mm = 4.0 } }\ntable = \"../outside/table.csv\""),
     ];
     let mut inputs: Vec<(&str, Value)> = Vec::new();
@@ -364,11 +384,11 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
             ("run", json!({ "scenario": to("short.toml") })),
             ("run", json!({ "scenario": "short.toml", "output": to("new") })),
             ("run", json!({ "scenario": "short.toml", "output": to("new"), "overwrite": true })),
-            ("check", json!({ "scenario": "short.toml", "set": { "defects.0.table": to("table.csv") } })),
+            ("check", json!({ "scenario": "half-space.toml", "set": { "defects.0.table": to("table.csv") } })),
             ("sweep", json!({ "scenario": to("short.toml"), "vary": { "operation.speed_rpm": [1500] } })),
             ("sweep", json!({ "scenario": "short.toml", "vary": { "operation.speed_rpm": [1500] }, "output": to("new") })),
-            ("sweep", json!({ "scenario": "short.toml", "vary": { "defects.0.table": [to("table.csv")] } })),
-            ("sweep", json!({ "scenario": "short.toml", "together": [{ "defects.0.table": [to("table.csv")] }] })),
+            ("sweep", json!({ "scenario": "half-space.toml", "vary": { "defects.0.table": [to("table.csv")] } })),
+            ("sweep", json!({ "scenario": "half-space.toml", "together": [{ "operation.speed_rpm": [1500], "defects.0.table": [to("table.csv")] }] })),
             ("analyze", json!({ "files": [to("signal.csv")] })),
             ("analyze", json!({ "files": [way] })),
             ("analyze", json!({ "files": [signal, to("signal.csv")] })),
@@ -384,7 +404,7 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
     for (tool, input) in inputs {
         let said = agent.refusal(tool, &input);
         assert!(
-            said.contains("outside of the folder that `brinell mcp` was given; allowed: paths"),
+            said.contains("outside of the folder that `brinell mcp` was given; allowed: paths that count from it"),
             "{tool} {input}: {said}"
         );
         assert!(!said.contains(SECRET), "{said}");
@@ -398,35 +418,52 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
     agent.leaves();
 }
 
-/// A run of years does not keep the server from answering, ends when it is cancelled, and when the agent leaves.
+/// A run of years does not keep the server from answering. It ends when it is cancelled, when the agent leaves, and when the server
+/// is ended.
 #[test]
 fn prop_a_long_run_blocks_nothing_and_ends_with_its_call() {
     let folder = folder_with("short.toml", SHORT);
-    let mut agent = Agent::of(folder.path());
-    let long = json!({ "scenario": "short.toml", "output": "out", "no_healthy": true, "set": { "simulation.duration_s": 1e4, "simulation.most_steps": 1e12 } });
-    let input = json!({ "name": "run", "arguments": long });
-    let partial = folder.path().join("out/signals.parquet.partial");
-    for leaves in [false, true] {
-        let id = agent.begin("tools/call", &input);
-        while !partial.exists() {
+    let set = json!({ "simulation.duration_s": 1e4, "simulation.most_steps": 1e12 });
+    let long = json!({ "scenario": "short.toml", "output": "out", "no_healthy": true, "set": set });
+    let begun = || {
+        let mut agent = Agent::of(folder.path());
+        let id = agent.begin("tools/call", &json!({ "name": "run", "arguments": long }));
+        while !folder.path().join("out/signals.parquet.partial").exists() {
             agent.ask("ping", &json!({}));
         }
         agent.record("frequencies", &json!({ "bearing": "6205" }));
-        if leaves {
-            break;
-        }
-        agent.send(
-            &json!({ "jsonrpc": "2.0", "method": "notifications/cancelled", "params": { "requestId": id } })
-                .to_string(),
-        );
         // As long as a run writes there, another one is refused.
-        while agent.call("run", &json!({ "scenario": "short.toml", "output": "out", "signals": ["parquet"] }))["isError"]
-            == true
-        {}
+        let busy = json!({ "scenario": "short.toml", "output": "out" });
+        assert!(agent.refusal("run", &busy).contains("out/signals.parquet"));
+        (agent, id)
+    };
+    let has_ended = || {
+        brinell(folder.path(), &["run", "short.toml", "-o", "out", "--quiet"]).exits(0);
         fs::remove_dir_all(folder.path().join("out")).unwrap();
-    }
+    };
+    let (mut agent, id) = begun();
+    agent.send(
+        &json!({ "jsonrpc": "2.0", "method": "notifications/cancelled", "params": { "requestId": id } }).to_string(),
+    );
+    // The server takes one message after the other.
+    agent.ask("ping", &json!({}));
+    let again = json!({ "scenario": "short.toml", "output": "out" });
+    while agent.call("run", &again)["isError"] == true {}
+    fs::remove_dir_all(folder.path().join("out")).unwrap();
     agent.leaves();
-    brinell(folder.path(), &["run", "short.toml", "-o", "out", "--quiet"]).exits(0);
+
+    let (agent, _) = begun();
+    agent.leaves();
+    has_ended();
+
+    #[cfg(unix)]
+    {
+        let (mut agent, _) = begun();
+        let kill = std::process::Command::new("kill").arg(agent.process.id().to_string()).status();
+        assert!(kill.expect("kill starts").success());
+        assert_eq!(agent.process.wait().expect("brinell ends").code(), Some(0));
+        has_ended();
+    }
 }
 
 #[test]

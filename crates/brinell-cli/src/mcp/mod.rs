@@ -3,20 +3,21 @@
 //! A tool is this program again, started in the folder with `--json`: an agent gets the very record that the command prints,
 //! one call cannot take the others down, and a call that is cancelled ends with its process. The protocol is the `rmcp` crate's.
 
+mod answer;
 mod call;
 mod offered;
 
 use crate::failure::Failure;
-use call::{Calls, Ended};
+use answer::{answer, refused};
+use call::Calls;
 use clap::Args;
 use offered::{OFFERED, Operation};
 use rmcp::ServerHandler;
 use rmcp::model::{
-    CallToolRequestParams, CallToolResponse, CallToolResult, ContentBlock, ErrorData, Implementation, ListToolsResult,
-    PaginatedRequestParams, ServerCapabilities, ServerConfig,
+    CallToolRequestParams, CallToolResponse, ErrorData, Implementation, ListToolsResult, PaginatedRequestParams,
+    ServerCapabilities, ServerConfig,
 };
 use rmcp::service::{RequestContext, RoleServer, ServiceExt};
-use serde_json::Value;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -53,7 +54,11 @@ pub(crate) fn mcp(command: &clap::Command, args: &McpArgs) -> Result<ExitCode, F
         let service = service.map_err(|error| failed(error.to_string()))?;
         // Ctrl-C, and who ends this process otherwise, ends the calls too.
         let mut cancel = Some(service.cancellation_token());
-        let heard = ctrlc::set_handler(move || drop(cancel.take().map(|token| token.cancel())));
+        let heard = ctrlc::set_handler(move || {
+            if let Some(token) = cancel.take() {
+                token.cancel();
+            }
+        });
         heard.map_err(|error| failed(format!("cannot listen for Ctrl-C: {error}")))?;
         service.waiting().await.map_err(|error| failed(error.to_string()))
     });
@@ -93,35 +98,14 @@ impl ServerHandler for Server {
             let words = format!("{}: no such tool; allowed: {}", request.name, known.join(", "));
             return Err(ErrorData::invalid_params(words, None));
         };
-        let words = match operation.arguments(&request.arguments.unwrap_or_default()) {
-            Ok(words) => words,
+        let asked = match operation.asked(&request.arguments.unwrap_or_default()) {
+            Ok(asked) => asked,
             Err(words) => return Ok(refused(format!("error: {words}")).into()),
         };
         let ended = tokio::select! {
             () = context.ct.cancelled() => return Ok(refused("cancelled".into()).into()),
-            ended = self.calls.call(&words) => ended,
+            ended = self.calls.call(&asked.words) => ended,
         };
-        Ok(ended.map_or_else(|error| refused(format!("error: {error}")), answer).into())
+        Ok(ended.map_or_else(|error| refused(format!("error: {error}")), |ended| answer(&ended, &asked.only)).into())
     }
-}
-
-fn refused(words: String) -> CallToolResult {
-    CallToolResult::error(vec![ContentBlock::text(words)])
-}
-
-/// The record that a command printed, as an object and as text; its warnings and errors as text.
-fn answer(ended: Ended) -> CallToolResult {
-    let record: Option<Value> = serde_json::from_str(&ended.out).ok().filter(Value::is_object);
-    let words = ended.err.trim();
-    let mut result = match (record, ended.succeeded) {
-        (None, _) if words.is_empty() => return refused("error: the command ended without an answer".into()),
-        (None, _) => return refused(words.into()),
-        // Of a sweep one of whose points failed, say.
-        (Some(record), false) => CallToolResult::structured_error(record),
-        (Some(record), true) => CallToolResult::structured(record),
-    };
-    if !words.is_empty() {
-        result.content.push(ContentBlock::text(words));
-    }
-    result
 }

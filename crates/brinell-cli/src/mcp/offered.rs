@@ -117,6 +117,17 @@ pub(super) const OFFERED: [Offered; 5] = [
     },
 ];
 
+/// The key of every tool that asks for parts of its record.
+const ONLY: &str = "only";
+
+/// A tool's input.
+pub(super) struct Asked {
+    /// The words of the command line.
+    pub(super) words: Vec<String>,
+    /// Names of parts of the record; none for all of it.
+    pub(super) only: Vec<String>,
+}
+
 impl Offered {
     /// With the options of its command.
     pub(super) fn of(&'static self, whole: &Command) -> Option<Operation> {
@@ -144,7 +155,9 @@ impl Operation {
 
     /// As `tools/list` has it.
     pub(super) fn tool(&self) -> Tool {
-        let properties: JsonObject = self.keys.iter().map(|key| (key.name.to_owned(), key.schema())).collect();
+        let mut properties: JsonObject = self.keys.iter().map(|key| (key.name.to_owned(), key.schema())).collect();
+        let only = "Parts of the answer to give instead of the whole, by their keys with points between them: quantities.sensor_ax.rms";
+        properties.insert(ONLY.into(), json!({ "type": "array", "items": { "type": "string" }, "description": only }));
         let required: Vec<Value> = self.keys.iter().filter(|key| key.required).map(|key| key.name.into()).collect();
         let schema = [
             ("type".to_owned(), "object".into()),
@@ -158,14 +171,31 @@ impl Operation {
         Tool::new(self.name(), about, JsonObject::from_iter(schema)).with_annotations(hints)
     }
 
-    /// The words of the command line that a tool's input means.
+    /// What a tool's input means.
     ///
     /// # Errors
     /// Which key is not known, missing or has a value of another type.
-    pub(super) fn arguments(&self, input: &JsonObject) -> Result<Vec<String>, String> {
+    pub(super) fn asked(&self, input: &JsonObject) -> Result<Asked, String> {
+        let mut input = input.clone();
+        let only = match input.remove(ONLY) {
+            None | Some(Value::Null) => Vec::new(),
+            Some(value) => {
+                let names = Takes::Several(Kind::Text(Vec::new())).texts(&value);
+                names.map_err(|expected| format!("{ONLY} = {value}: expected {expected}"))?
+            }
+        };
+        Ok(Asked { words: self.words(&input)?, only })
+    }
+
+    /// The words of the command line.
+    fn words(&self, input: &JsonObject) -> Result<Vec<String>, String> {
         if let Some((name, value)) = input.iter().find(|(name, _)| self.keys.iter().all(|key| key.name != *name)) {
             let known: Vec<&str> = self.keys.iter().map(|key| key.name).collect();
-            return Err(format!("{name} = {value}: not a key of {}; allowed: {}", self.name(), known.join(", ")));
+            return Err(format!(
+                "{name} = {value}: not a key of {}; allowed: {}, {ONLY}",
+                self.name(),
+                known.join(", ")
+            ));
         }
         let (mut words, mut files) = (vec![self.name().to_owned(), self.offered.json.to_owned()], Vec::new());
         for key in &self.keys {
@@ -176,7 +206,10 @@ impl Operation {
                     let expected = |words: &str| format!("{} = {value}: expected {words}; {}", key.name, key.help);
                     let values = key.takes.texts(value).map_err(|words| expected(&words))?;
                     match (&key.option, &key.takes) {
-                        (None, _) => files.extend(values),
+                        // Standard input is the protocol's.
+                        (None, _) => {
+                            files.extend(values.into_iter().map(|name| if name == "-" { "./-".into() } else { name }));
+                        }
                         (Some(option), Takes::Flag) => words.extend(values.iter().map(|_| option.clone())),
                         (Some(option), Takes::Pair) => words.extend([option.clone()].into_iter().chain(values)),
                         // In one word, so that no value is taken for an option.
@@ -227,9 +260,14 @@ enum Kind {
 impl Key {
     fn of(name: &'static str, arg: &Arg) -> Self {
         let option = arg.get_long().map(|long| format!("--{long}"));
-        let help = arg.get_help().map_or(String::new(), ToString::to_string);
-        let help = option.as_ref().map_or(help.clone(), |option| format!("{help} ({option})"));
-        Self { name, option, help, required: arg.is_required_set(), takes: Takes::of(name, arg) }
+        let takes = Takes::of(name, arg);
+        let mut help = arg.get_help().map_or(String::new(), ToString::to_string) + takes.shape();
+        // A tool has none.
+        for stdin in ["; `-` reads standard input", " (`-` reads standard input)"] {
+            help = help.replace(stdin, "");
+        }
+        help.extend(option.iter().map(|option| format!(" ({option})")));
+        Self { name, option, help, required: arg.is_required_set(), takes }
     }
 
     fn schema(&self) -> Value {
@@ -252,6 +290,16 @@ impl Takes {
             _ if words.len() == 2 => Self::Pair,
             _ if several => Self::Several(Kind::of(arg)),
             _ => Self::One(Kind::of(arg)),
+        }
+    }
+
+    /// What of it the words of the command line do not say.
+    fn shape(&self) -> &'static str {
+        match self {
+            Self::Settings => ". Here an object: a value by key",
+            Self::Lists => ". Here an object: a list, or a text such as 1000:5000:500, by key",
+            Self::Steps => ". Here a list of objects, each with a list by key",
+            _ => "",
         }
     }
 
