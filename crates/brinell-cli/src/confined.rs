@@ -30,7 +30,7 @@ pub(crate) fn check_read(path: &Path, beside: &str) -> Result<(), Failure> {
     check(path)?;
     check(&path.with_file_name(beside))?;
     let inside = std::fs::read_dir(path).into_iter().flatten().flatten();
-    inside.map(|entry| check(&entry.path())).collect()
+    inside.map(|entry| entry.path()).try_for_each(|path| check(&path))
 }
 
 fn refusal(path: &Path) -> Failure {

@@ -13,6 +13,8 @@ struct Agent {
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
     id: u64,
+    /// Its instructions.
+    told: String,
 }
 
 impl Agent {
@@ -24,14 +26,16 @@ impl Agent {
             .spawn()
             .expect("brinell starts");
         let (input, output) = (process.stdin.take(), process.stdout.take().expect("it is piped"));
-        Self { process, input, output: BufReader::new(output), id: 0 }
+        Self { process, input, output: BufReader::new(output), id: 0, told: String::new() }
     }
 
     fn of(folder: &Path) -> Self {
         let mut agent = Self::unknown_to(folder);
         let client = json!({ "name": "test", "version": "1" });
         let hello = json!({ "protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": client });
-        assert_eq!(agent.ask("initialize", &hello)["result"]["serverInfo"]["name"], "brinell");
+        let server = agent.ask("initialize", &hello)["result"].clone();
+        assert_eq!(server["serverInfo"]["name"], "brinell");
+        agent.told = server["instructions"].as_str().unwrap().to_owned();
         agent.send(r#"{"jsonrpc":"2.0","method":"notifications/initialized"}"#);
         agent
     }
@@ -226,6 +230,10 @@ fn prop_each_tool_has_a_schema_with_words_for_each_key() {
             );
         }
     }
+    // The example that it is told of is one.
+    let (_, example) = agent.told.split_once("A scenario:\n").unwrap();
+    fs::write(folder.path().join("example.toml"), example).unwrap();
+    agent.record("check", &json!({ "scenario": "example.toml" }));
     let of = |k: usize| &tools[k]["inputSchema"];
     assert_eq!(of(3)["properties"]["rate_hz"]["type"], json!(["number", "string"]));
     assert_eq!(of(3)["properties"]["band_hz"]["minItems"], 2);

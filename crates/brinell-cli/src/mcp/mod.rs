@@ -22,10 +22,24 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// What an agent is told of all tools.
-const INSTRUCTIONS: &str = "brinell simulates the vibration of rolling bearings with damage and diagnoses measured signals. Paths are relative to the served \
-    folder and stay within it. Units are in the keys' names; messages call a key by its option: --rate is rate_hz. A scenario is a TOML file in the folder: \
-    `check` tells what follows from it and what is wrong with it, `run` simulates it into a folder of results, which `analyze` judges as it judges a measured signal; \
-    `sweep` varies its keys. Values that nobody gave are assumptions, which the records list.";
+const INSTRUCTIONS: &str = r#"brinell simulates the vibration of rolling bearings with damage, and diagnoses measured signals.
+Paths count from the served folder and stay within it. Units are in the keys' names; messages call a key by its option: --rate is rate_hz.
+A scenario is a TOML file: `check` says what follows from it and what is wrong with it, `run` simulates it into a folder of results, which `analyze` judges as it judges a measured signal, `sweep` varies its keys. Values that nobody gave are assumptions, which the records list.
+Records are long: `only` asks for parts of them; the whole is in the folder of results.
+A scenario:
+[bearing]
+preset = "NU206"
+[operation]
+speed_rpm = 1800
+load_n = [1000, 0]
+[[defects]]
+on = "outer-raceway"
+center_deg = 0
+depth_um = 20
+shape = { rectangle = { length_mm = 2, width_mm = 4 } }
+[simulation]
+duration_s = 0.5
+"#;
 
 #[derive(Debug, Args)]
 #[command(after_help = "An agent starts it by itself, where its configuration has:\n  \
