@@ -392,6 +392,9 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
             ("run", json!({ "scenario": to("short.toml") })),
             ("run", json!({ "scenario": "short.toml", "output": to("new") })),
             ("run", json!({ "scenario": "short.toml", "output": to("new"), "overwrite": true })),
+            // What lies there is not told either.
+            ("run", json!({ "scenario": "short.toml", "output": way })),
+            ("sweep", json!({ "scenario": "short.toml", "vary": { "operation.speed_rpm": [1500] }, "output": way })),
             ("check", json!({ "scenario": "half-space.toml", "set": { "defects.0.table": to("table.csv") } })),
             ("sweep", json!({ "scenario": to("short.toml"), "vary": { "operation.speed_rpm": [1500] } })),
             ("sweep", json!({ "scenario": "short.toml", "vary": { "operation.speed_rpm": [1500] }, "output": to("new") })),
