@@ -419,6 +419,8 @@ fn prop_nothing_outside_the_folder_is_read_or_written() {
             "{tool} {input}: {said}"
         );
         assert!(!said.contains(SECRET), "{said}");
+        let is_told = |name: &&str| said.contains(*name) && !input.to_string().contains(*name);
+        assert_eq!(["dates.csv", "depth.csv", "other.csv"].into_iter().find(is_told), None, "{tool} {input}: {said}");
     }
     assert_eq!(files(all.path()), before);
     // A path that stays within is taken, whatever it looks like.
