@@ -34,6 +34,17 @@ def test_xval_the_wheel_carries_the_command(command, examples, tmp_path):
     result = brinell.simulate(examples / "rectangle.toml", settings={"simulation.duration_s": 0.05})
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     assert summary["made_by"] == result.summary["made_by"]
+    # An agent's calls are processes of the same command.
+    asked = {"jsonrpc": "2.0", "id": 2, "method": "tools/call", "params": {"name": "frequencies", "arguments": {"bearing": "6205", "only": ["bpfo_hz"]}}}
+    about = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "test", "version": "1"}}
+    lines = [{"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": about}, {"jsonrpc": "2.0", "method": "notifications/initialized"}, asked]
+    for start in [own, [pathlib.Path(sys.executable).parent / "brinell"]]:
+        with subprocess.Popen([*start, "mcp", tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
+            server.stdin.write("".join(json.dumps(line) + "\n" for line in lines))
+            server.stdin.flush()
+            answers = {answer["id"]: answer for answer in map(json.loads, [server.stdout.readline(), server.stdout.readline()])}
+            server.stdin.close()
+        assert not answers[2]["result"].get("isError"), answers[2]
     assert f"commit {summary['made_by']['commit']}" in told.replace("commit unknown", "commit None")
 
 

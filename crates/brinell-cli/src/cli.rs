@@ -77,6 +77,8 @@ pub(crate) enum Command {
     Dataset(Box<crate::dataset::DatasetArgs>),
     /// Draw damage on a running bearing and hear it: a page on this machine with the engine behind it
     Studio(crate::studio::StudioArgs),
+    /// Offer frequencies, check, run, analyze and sweep to an AI agent as tools, within one folder, by the Model Context Protocol
+    Mcp(crate::mcp::McpArgs),
     /// Print the JSON Schema of scenario files, or of a data set's plans, for editors and generators
     Schema(SchemaArgs),
     /// Open a page of results in the browser

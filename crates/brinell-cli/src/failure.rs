@@ -50,6 +50,9 @@ pub(crate) enum Failure {
     /// A page cannot be shown; why.
     #[error("{0}")]
     NotOpened(String),
+    /// The protocol of `brinell mcp` could not begin or go on; why.
+    #[error("cannot serve: {0}")]
+    NotServed(String),
     /// Standard output does not take what is said; why.
     #[error("cannot write to standard output: {0}")]
     Output(String),
@@ -68,9 +71,12 @@ impl Failure {
                 | IoError::Busy { .. }
                 | IoError::Journal { .. },
             ) => ExitCode::BAD_INPUT,
-            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Output(_) => {
-                ExitCode::FAILURE
-            }
+            Self::Write(_)
+            | Self::Picture(_)
+            | Self::Run(_)
+            | Self::NotOpened(_)
+            | Self::NotServed(_)
+            | Self::Output(_) => ExitCode::FAILURE,
         }
     }
 

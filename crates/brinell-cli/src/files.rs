@@ -1,5 +1,6 @@
 //! Scenario files in.
 
+use crate::confined;
 use crate::failure::{Failure, print_problems};
 use crate::inputs::Inputs;
 use crate::say::{complain, one_line};
@@ -93,8 +94,9 @@ impl Source {
             print_problems(&self.name, &self.text(), &loaded.warnings);
         }
         for file in loaded.scenario.files() {
-            let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
-            inputs.add(&folder(&self.path).join(file));
+            let path = folder(&self.path).join(file);
+            confined::check(&path)?;
+            self.inputs.lock().unwrap_or_else(PoisonError::into_inner).add(&path);
         }
         let warnings = resolve_loaded(&mut loaded, &self.text(), &overrides, folder(&self.path));
         let warnings = warnings.map_err(failed)?;
@@ -140,8 +142,13 @@ fn folder(path: &Path) -> &Path {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    let read =
-        if is_stdin(path) { read_text(std::io::stdin().lock()) } else { std::fs::File::open(path).and_then(read_text) };
+    let read = match is_stdin(path) {
+        true => read_text(std::io::stdin().lock()),
+        false => {
+            confined::check(path)?;
+            std::fs::File::open(path).and_then(read_text)
+        }
+    };
     read.map_err(|error| Failure::Read(path.to_owned(), error))
 }
 
@@ -159,6 +166,7 @@ pub(crate) fn safe_name(name: &str) -> String {
 
 /// Makes a folder, and those above it.
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
+    confined::check(folder)?;
     std::fs::create_dir_all(folder).map_err(|source| match source.kind() {
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             IoError::NotPermitted { path: folder.to_owned(), source }.into()

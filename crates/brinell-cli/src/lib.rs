@@ -12,6 +12,7 @@ mod cite;
 mod cli;
 mod coefficients;
 mod compare;
+mod confined;
 mod dataset;
 mod defect;
 mod diff;
@@ -21,6 +22,7 @@ mod files;
 mod init;
 mod inputs;
 mod look_up;
+mod mcp;
 mod open;
 mod progress;
 mod reproduce;
@@ -39,6 +41,7 @@ use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use failure::{ExitCode, Failure};
 use std::ffi::OsString;
+use std::sync::OnceLock;
 pub use version::COMMIT;
 
 /// Runs the command with these arguments, the first of which is the program's name, and prints to the process's
@@ -73,6 +76,22 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
             code.0
         }
         Ok(()) => code.0,
+    }
+}
+
+static STARTED_BY: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Says how this command is started again where the process's program is another, such as Python: a program and its first words. The first
+/// call counts.
+pub fn started_by(words: Vec<OsString>) {
+    let _ = STARTED_BY.set(words);
+}
+
+/// How this command is started again.
+fn program() -> std::io::Result<Vec<OsString>> {
+    match STARTED_BY.get() {
+        Some(words) => Ok(words.clone()),
+        None => Ok(vec![std::env::current_exe()?.into()]),
     }
 }
 
@@ -128,6 +147,7 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Reproduce(args) => reproduce::reproduce(&args),
         Command::Dataset(args) => dataset::dataset(&args),
         Command::Studio(args) => studio::studio(&args),
+        Command::Mcp(args) => mcp::mcp(&Cli::command(), &args),
         Command::Schema(args) => look_up::schema(&args),
         Command::Diff(args) => diff::diff(&args),
         Command::Open(args) => open::open(&args),

@@ -1,6 +1,7 @@
 //! The commands that look things up: `bearing`, `frequencies`, `schema`.
 
 use crate::args::{BearingCommand, FrequenciesArgs, SchemaArgs};
+use crate::confined;
 use crate::failure::{ExitCode, Failure};
 use crate::files;
 use crate::say::{self, document, plain_number, say};
@@ -308,6 +309,10 @@ fn asked(args: &FrequenciesArgs) -> Result<Vec<Asked>, Failure> {
 pub(crate) fn scenario_meant(bearing: &str) -> Result<Option<Scenario>, Failure> {
     let path = PathBuf::from(bearing);
     let written_as_a_file = files::is_stdin(&path) || bearing.to_lowercase().ends_with(".toml");
-    let meant = written_as_a_file || (KnownBearing::find(bearing).is_none() && path.is_file());
+    let unknown = || KnownBearing::find(bearing).is_none();
+    if written_as_a_file || unknown() {
+        confined::check(&path)?;
+    }
+    let meant = written_as_a_file || (unknown() && path.is_file());
     Ok(if meant { Some(files::scenario(&path, &[], true)?.scenario) } else { None })
 }

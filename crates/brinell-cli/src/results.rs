@@ -5,6 +5,7 @@
 //! the listed files give way to the new ones. What is not listed is never written over and never removed: a folder with
 //! such a file is refused. A study and a data set keep finished runs there: they resume where their journal lies.
 
+use crate::confined;
 use crate::failure::Failure;
 use crate::figures::{PlotFormat, picture_files, ready_pictures};
 use crate::inputs::Inputs;
@@ -81,6 +82,7 @@ impl Results {
         overwrite: bool,
         same: impl FnOnce(&Value) -> bool,
     ) -> Result<Earlier, Failure> {
+        confined::check(folder)?;
         let at = folder.display();
         if let Some(kept) = Resumed::of(folder) {
             return Err(kept.refuses(folder));
@@ -142,6 +144,7 @@ impl Resumed {
     /// # Errors
     /// Where another command's results, or anything else, lie there, or where a file there is an input.
     pub(crate) fn may_write(self, folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
+        confined::check(folder)?;
         match (Self::of(folder), Results::of(folder)) {
             (Some(other), _) if other != self => Err(other.refuses(folder)),
             (None, Some((other, ..))) => Err(Failure::Usage(format!(
@@ -181,6 +184,7 @@ fn spared(folder: &Path, inputs: &Inputs, own: impl Fn(&String) -> bool) -> Resu
         for entry in entries {
             let entry = entry.map_err(failed)?;
             let (path, name) = (entry.path(), format!("{below}{}", entry.file_name().to_string_lossy()));
+            confined::check(&path)?;
             if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
                 if WITHIN.contains(&&*name) || (Results::of(&path).is_none() && Resumed::of(&path).is_none()) {
                     folders.push(name + "/");

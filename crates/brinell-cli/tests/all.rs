@@ -24,6 +24,7 @@ mod inputs;
 mod look_up;
 mod machine;
 mod many;
+mod mcp;
 mod names;
 mod outputs;
 mod reproduce;

@@ -16,7 +16,9 @@ mod written;
 
 pub(crate) use args::AnalyzeArgs;
 
+use crate::confined;
 use crate::failure::{ExitCode, Failure};
+use crate::results::SCENARIO;
 use crate::say::complain;
 use brinell_measured::{Request, examine, is_too_short, of_file, together};
 use files::{Files, files};
@@ -25,6 +27,9 @@ use std::path::{Path, PathBuf};
 use written::{earlier, put_json, put_pages};
 
 pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
+    for path in args.files.iter().chain(&args.against) {
+        confined::check_read(path, SCENARIO)?;
+    }
     if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
         return Err(Failure::Usage(format!("--tolerance {}: expected more than 0 to 10 per cent", args.tolerance)));
     }

@@ -1,6 +1,7 @@
 //! The options about records over time.
 
 use super::files::Files;
+use crate::confined;
 use crate::failure::Failure;
 use brinell_measured::{TimeUnit, Times, check_limit};
 use clap::Args;
@@ -60,6 +61,9 @@ impl TrendArgs {
             }
         };
         let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        for date in &self.date {
+            confined::check(Path::new(date))?;
+        }
         let list = match &self.date[..] {
             [only] if Path::new(only).is_file() => Some(Path::new(only)),
             _ => None,
