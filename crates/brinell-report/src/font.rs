@@ -23,6 +23,11 @@ fn glyph(face: &Face<'_>, c: char) -> GlyphId {
     face.glyph_index(c).or_else(|| face.glyph_index('\u{fffd}')).unwrap_or(GlyphId(0))
 }
 
+/// Whether the face has all letters of `text`; others are drawn as U+FFFD.
+pub(crate) fn has(text: &str, bold: bool) -> bool {
+    face(bold).is_some_and(|face| text.chars().all(|c| face.glyph_index(c).is_some()))
+}
+
 /// The style rule with which a page or a picture brings its typeface along.
 pub(crate) fn css(bold: bool) -> String {
     let (weight, file) = if bold { (600, SEMI_BOLD) } else { (400, REGULAR) };

@@ -2,6 +2,8 @@
 
 mod args;
 mod columns;
+mod customer;
+mod customer_args;
 mod files;
 mod page;
 mod plots;
@@ -18,7 +20,7 @@ pub(crate) use args::AnalyzeArgs;
 
 use crate::failure::Failure;
 use crate::say::complain;
-use brinell_measured::{Request, examine, is_too_short, of_file, together};
+use brinell_measured::{Request, Short, examine, is_too_short, of_file, together};
 use files::{Files, files};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -47,6 +49,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let request = args.request()?;
     request.check()?;
     let found = files(&args.files)?;
+    args.check_report(&found)?;
     if args.trend.trend {
         let (paths, times) = args.trend.dated(found, channels)?;
         return several::analyze(args, &request, &paths, Some(times));
@@ -63,6 +66,10 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
 fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
     let measurement = together(paths, request)?;
     if is_too_short(&measurement, request)? {
+        if args.is_reported() {
+            let Short { why, .. } = Short::of(measurement, request)?;
+            return Err(Failure::Usage(format!("{}: {why} The customer's report takes a verdict", paths[0].display())));
+        }
         // Its levels, as a row.
         return several::analyze(args, request, paths, None);
     }
@@ -73,7 +80,7 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
     let found = examine(measurement, request)?;
     let json = found.to_json(true);
     let mut written = Vec::new();
-    if let Some(folder) = &args.output {
+    if let Some(folder) = args.folder() {
         let page = page::report(&found).into();
         written = put_pages(
             folder,
@@ -86,6 +93,9 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
         )?;
     }
     put_json(args, &json, &mut written)?;
+    if args.is_reported() {
+        customer::write(args, &paths[0], vec![customer::judged(&found)], &[], &mut written)?;
+    }
     if !args.quiet {
         for warning in &found.warnings {
             complain!("warning: {warning}");
