@@ -41,6 +41,7 @@ impl Judged {
             )
         }));
         severity.extend(of.size.map(|words| format!("Length: {words}")));
+        let told = format!("{}; {}", of.speed, a.shaft_words());
         let speed = match a.speed_used() {
             Some(used) => format!("{}. {used}", of.speed),
             None => of.speed,
@@ -57,7 +58,7 @@ impl Judged {
             row(if of.files.len() > 1 { "Files" } else { "File" }, listed(of.files)),
             row("Channel", of.channel.to_owned()),
             row(if a.records > 1 { "Records" } else { "Record" }, record),
-            row("Speed", format!("{}; {}", of.findings.speed, a.shaft_words())),
+            row("Speed", told),
             row("Bearing", of.findings.bearing.to_owned()),
         ];
         provenance.extend(of.findings.levels.class.map(|class| row("Class", format!("{} (ISO 20816-3)", class.words()))));
@@ -100,9 +101,14 @@ fn listed(names: &[String]) -> String {
 /// What the verdict rests on, or what is open.
 fn reason(a: &Analysis) -> String {
     if let Some(family) = a.causes().next() {
-        let (found, of) = (family.detected_harmonics(), family.harmonics.len() - family.hidden_harmonics());
+        let (found, all) = (family.detected_harmonics(), family.harmonics.len());
+        let hidden = match family.hidden_harmonics() {
+            0 => String::new(),
+            1 => ", and one lies under a line of shaft or mains".to_owned(),
+            hidden => format!(", and {hidden} lie under lines of shaft or mains"),
+        };
         return format!(
-            "The machine rings at the rate at which {}: {:.1} times a second ({}). Of the first {of} multiples of that rate {found} stand out in the picture below.",
+            "The machine rings at the rate at which {}: {:.1} times a second ({}). Of the first {all} multiples of that rate {found} stand out of the noise{hidden}.",
             rate(family.component),
             family.frequency,
             family.name,
@@ -166,7 +172,7 @@ fn evidence(a: &Analysis) -> Table {
         vec![part, name, expected, found, off, harmonics, db, modulation, says]
     });
     let heads = [
-        "Part", "Rate", "#Expected, Hz", "#Found, Hz", "#Off, %", "Multiples", "#Over noise, dB", "#Modulation, %", "Assessment",
+        "Part", "Rate", "#Expected, Hz", "#Found, Hz", "#Deviation, %", "Multiples", "#Over noise, dB", "#Modulation, %", "Assessment",
     ];
     Table::new("Defect frequencies", heads, rows, "")
 }
@@ -198,7 +204,7 @@ fn method(a: &Analysis) -> String {
     format!(
         "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling; lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of sound machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
         a.bands,
-        short(100.0 * a.options.tolerance, 3)
+        (1e4 * a.options.tolerance).round() / 1e2
     )
 }
 

@@ -52,6 +52,8 @@ const LINE: f64 = 1.36;
 const SMALL: f64 = 0.86;
 /// Between two columns, px.
 const GUTTER: f64 = 28.0;
+/// A column wider than this has facts in pairs, px.
+const PAIRS: f64 = 500.0;
 
 /// Where the next block goes.
 pub(super) struct Column<'p> {
@@ -113,13 +115,10 @@ fn lines(text: &str, face: Face, room: f64, indent: f64, most: usize) -> Vec<Str
     if lines.len() > most {
         lines.truncate(most);
         if let Some(last) = lines.last_mut() {
-            // With one more letter than there is room for it is cut.
-            let room = room_of(most - 1);
-            let mut longer = format!("{last} ");
-            while face.width(&longer) <= room {
-                longer.push('.');
+            while !last.is_empty() && face.width(&format!("{last}…")) > room_of(most - 1) {
+                last.pop();
             }
-            *last = font::fitted(&longer, face.size, face.bold, room);
+            *last = format!("{}…", last.trim_end());
         }
     }
     lines
@@ -215,7 +214,7 @@ impl Column<'_> {
     }
 
     fn facts(&mut self, facts: &[(String, String)]) {
-        let across = if self.set.wide { 2 } else { 1 };
+        let across = if self.width > PAIRS { 2 } else { 1 };
         let cell = (self.width - GUTTER * (across - 1) as f64) / across as f64;
         let (left, width) = (self.left, self.width);
         let label = Face::new(self.set.body, ink::FAINT);
@@ -228,13 +227,13 @@ impl Column<'_> {
                 (self.left, self.width, self.y) = (left + k as f64 * (cell + GUTTER), cell, top);
                 let y = top + LINE * label.size;
                 self.put(&font::fitted(name, label.size, false, room - 10.0), label, (self.left, y), Anchor::Start);
-                self.text(said, words, (room, 0.0), 2);
+                self.text(said, words, (room, 0.0), if across == 2 { 2 } else { 4 });
                 bottom = bottom.max(self.y);
             }
             self.y = bottom + 0.12 * label.size;
         }
         (self.left, self.width) = (left, width);
-        self.gap(0.4);
+        self.gap(0.8);
     }
 
     fn result(&mut self, tone: Tone, headline: &str, said: &[(&'static str, String)]) {
@@ -347,16 +346,17 @@ impl Column<'_> {
     fn widths(&self, heads: &[&str], rows: &[Vec<String>], (face, head): (Face, Face)) -> Vec<f64> {
         const BETWEEN: f64 = 10.0;
         let most = 0.4 * self.width;
-        let width = |k: usize, of: &dyn Fn(Face, &str) -> f64| {
-            let cells = rows.iter().filter_map(|row| row.get(k)).map(|cell| of(face, cell));
-            cells.chain([of(head, heads[k])]).fold(0.0, f64::max) + BETWEEN
-        };
         let longest = |face: Face, text: &str| {
             text.split_whitespace().map(|word| face.width(word)).fold(0.0, f64::max).min(most)
         };
-        let whole = |face: Face, text: &str| face.width(text);
-        let least: Vec<f64> = (0..heads.len()).map(|k| width(k, &longest)).collect();
-        let wanted: Vec<f64> = (0..heads.len()).map(|k| width(k, &whole).max(least[k])).collect();
+        // A head may take two lines.
+        let head_of = |k: usize| longest(head, heads[k]).max(0.56 * head.width(heads[k]));
+        let width = |k: usize, of: &dyn Fn(&str) -> f64| {
+            let cells = rows.iter().filter_map(|row| row.get(k)).map(|cell| of(cell));
+            cells.chain([head_of(k)]).fold(0.0, f64::max) + BETWEEN
+        };
+        let least: Vec<f64> = (0..heads.len()).map(|k| width(k, &|cell| longest(face, cell))).collect();
+        let wanted: Vec<f64> = (0..heads.len()).map(|k| width(k, &|cell| face.width(cell)).max(least[k])).collect();
         let (sum, want) = (least.iter().sum::<f64>(), wanted.iter().sum::<f64>());
         let left = self.width - sum;
         if left < 0.0 {

@@ -8,6 +8,7 @@ use crate::chart::Size;
 use crate::font;
 use crate::layout::PX_PER_MM;
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
+use brinell::analysis::Verdict;
 
 /// A4, mm.
 const PAPER: (f64, f64) = (210.0, 297.0);
@@ -16,7 +17,7 @@ const MARGIN: (f64, f64) = (60.0, 46.0);
 /// Room for the line at the foot, px.
 const FOOT: f64 = 30.0;
 /// Height of a picture on paper, px: at most, and what is tried at least.
-const FIGURE: (f64, f64) = (330.0, 170.0);
+const FIGURE: (f64, f64) = (360.0, 170.0);
 /// How a page is set, the widest first: size of text (px, a quarter mm), and lines of a paragraph at most.
 const SETTINGS: [(f64, usize); 7] =
     [(13.4, 12), (12.8, 12), (12.2, 12), (11.6, 8), (11.2, 5), (10.8, 3), (10.4, 2)];
@@ -127,7 +128,9 @@ impl CustomerReport {
         if !self.all.rows.is_empty() {
             blocks.push(Block::Table { table: self.all.clone(), most: CHANNELS });
         }
-        let mut severity = vec![Block::Heading("How severe it is"), text("", grade(self)), led(&self.whole.words)];
+        let (first, words) = grade(self);
+        let graded = text(first, words);
+        let mut severity = vec![Block::Heading("How severe it is"), graded, led(&self.whole.words)];
         severity.extend(lead.severity.iter().map(|words| led(words)));
         severity.push(led(limits(!self.all.rows.is_empty())));
         let next = vec![
@@ -156,7 +159,7 @@ impl CustomerReport {
             Block::List { items: NOT_SAID.map(str::to_owned).to_vec(), numbered: false },
         ];
         let source = vec![Block::Heading("Where it comes from"), Block::Facts(lead.provenance.clone())];
-        let mut method = vec![Block::Heading("Method"), text("", lead.method.clone())];
+        let mut method = vec![Block::Heading("Method"), Block::Text { first: "", words: lead.method.clone(), most: 12 }];
         let warnings = &lead.report.warnings;
         if !warnings.is_empty() {
             let more = warnings.len().saturating_sub(REMARKS);
@@ -169,7 +172,7 @@ impl CustomerReport {
         }
         vec![
             Block::Heading("Evidence"),
-            Block::Text { first: "", words: lead.report.verdict.clone(), most: 8 },
+            Block::Text { first: "In the program's words:", words: lead.report.verdict.clone(), most: 8 },
             evidence,
             Block::Heading("The signal"),
             close,
@@ -203,8 +206,15 @@ fn envelope(lead: &Judged, size: Size) -> Picture {
 
 fn caption(lead: &Judged) -> &'static str {
     let found = lead.report.markers.iter().any(|marker| marker.present);
-    match found {
-        true => "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence.",
-        false => "How often the machine rings, from the envelope of the vibration. Marks above: where damage of each part would have peaks.",
+    match (found, lead.verdict) {
+        (true, Verdict::Damage) => {
+            "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence. Short marks above: sidebands. Other peaks are the shaft's or come from elsewhere."
+        }
+        (true, _) => {
+            "How often the machine rings, from the envelope of the vibration. Dashed: the rate of the strongest regular impacts and its multiples, which is none of this bearing's."
+        }
+        (false, _) => {
+            "How often the machine rings, from the envelope of the vibration. Marks above: where damage of each part would have its peaks."
+        }
     }
 }

@@ -60,24 +60,22 @@ pub(super) fn sure(judged: &Judged) -> &'static str {
     }
 }
 
-/// How bad it is, in a sentence.
-pub(super) fn grade(of: &CustomerReport) -> String {
+/// How bad it is: a few words, and on what they rest.
+pub(super) fn grade(of: &CustomerReport) -> (&'static str, String) {
     let damaged = of.lead.verdict == Verdict::Damage;
+    let whole = |zone: Zone| format!("the machine as a whole vibrates in zone {}", zone.name());
     match (damaged, of.whole.zone) {
-        (true, Some(Zone::D)) => "Severe: the machine as a whole vibrates in zone D.".into(),
-        (true, Some(Zone::C)) => "Elevated: the machine as a whole vibrates in zone C.".into(),
-        (true, Some(zone)) => format!(
-            "Limited so far: the bearing shows it, the machine as a whole does not (zone {}).",
-            zone.name()
-        ),
-        (true, None) => "Not graded: the record gives no zone of ISO 20816-3.".into(),
+        (true, Some(zone @ Zone::D)) => ("Severe:", format!("{}.", whole(zone))),
+        (true, Some(zone @ Zone::C)) => ("Elevated:", format!("{}.", whole(zone))),
+        (true, Some(zone)) => {
+            ("Limited so far:", format!("the bearing shows the damage, the machine as a whole does not (zone {}).", zone.name()))
+        }
+        (true, None) => ("Not graded:", "the record gives no zone of ISO 20816-3.".into()),
         (false, Some(zone @ (Zone::C | Zone::D))) => {
-            format!("The machine as a whole vibrates in zone {}; the bearing is not shown to be the cause.", zone.name())
+            ("Not by the bearing,", format!("as far as the record shows: {}.", whole(zone)))
         }
-        (false, Some(zone)) => {
-            format!("No damage is shown, and the machine as a whole vibrates in zone {}.", zone.name())
-        }
-        (false, None) => "No damage is shown; the machine as a whole is not graded.".into(),
+        (false, Some(zone)) => ("Inconspicuous:", format!("{}, and no damage is shown.", whole(zone))),
+        (false, None) => ("Not graded:", "no damage is shown, and the record gives no zone of ISO 20816-3.".into()),
     }
 }
 
@@ -85,10 +83,10 @@ pub(super) fn grade(of: &CustomerReport) -> String {
 pub(super) fn limits(several: bool) -> &'static str {
     match several {
         true => {
-            "Limits: early damage of a bearing hardly shows in the velocity, so that a good zone does not take the verdict back. The largest of the channels was taken; the standard means the largest over all places and directions."
+            "Limits: early damage of a bearing hardly shows in the velocity: a low one says little of the bearing. The largest of the channels was taken; the standard means the largest over all places and directions."
         }
         false => {
-            "Limits: early damage of a bearing hardly shows in the velocity, so that a good zone does not take the verdict back. One place and direction was measured; the standard means the largest over all."
+            "Limits: early damage of a bearing hardly shows in the velocity: a low one says little of the bearing. One place and direction was measured; the standard means the largest over all."
         }
     }
 }
