@@ -4,6 +4,7 @@ mod analyze;
 mod analyze_bearings;
 mod analyze_inputs;
 mod analyze_several;
+mod analyze_report;
 mod analyze_size;
 mod analyze_together;
 mod analyze_trend;

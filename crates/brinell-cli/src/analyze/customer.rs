@@ -46,7 +46,7 @@ pub(super) fn write(
     };
     let missing = report.missing_letters();
     if pdf.is_some() && !missing.is_empty() && !args.quiet {
-        complain!("warning: the PDF has a mark in place of letters that its typeface lacks: {missing}; the HTML (-o REPORT.html) shows them");
+        complain!("warning: the PDF has ? in place of letters that its typeface lacks: {missing}; the HTML (-o REPORT.html) shows them");
     }
     // Both or none.
     let html = html.map(|path| atomic_prepare(path, report.html())).transpose()?;

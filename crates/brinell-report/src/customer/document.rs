@@ -62,7 +62,7 @@ impl CustomerReport {
         pdf(&self.pages(), &Info { title: self.title(), author, creator: GENERATOR })
     }
 
-    /// Letters of what was given that the PDF's typeface lacks, each once: it shows a mark in their place.
+    /// Letters of what was given that the PDF's typeface lacks, each once: it shows ? in their place.
     pub fn missing_letters(&self) -> String {
         let heading = &self.heading;
         let given = [&heading.title, &heading.machine, &heading.point, &heading.author, &self.lead.channel];

@@ -100,15 +100,21 @@ fn lines(text: &str, face: Face, room: f64, indent: f64, most: usize) -> Vec<Str
         if !lines[at].is_empty() || (at == 0 && indent > 0.0 && face.width(word) <= room) {
             lines.push(String::new());
         }
+        let mut used = 0.0;
         for letter in word.chars() {
-            let at = lines.len() - 1;
-            lines[at].push(letter);
-            if lines[at].chars().count() > 1 && face.width(&lines[at]) > room_of(at) {
-                lines[at].pop();
+            let (at, own) = (lines.len() - 1, face.width(letter.encode_utf8(&mut [0; 4])));
+            if used > 0.0 && used + own > room_of(at) {
                 lines.push(letter.to_string());
+                used = own;
+            } else {
+                lines[at].push(letter);
+                used += own;
+            }
+            if lines.len() > most.saturating_add(1) {
+                break;
             }
         }
-        if lines.len() > most + 1 {
+        if lines.len() > most.saturating_add(1) {
             break;
         }
     }
@@ -146,12 +152,17 @@ impl Column<'_> {
 
     /// Lines from here on, `into` the column.
     fn text(&mut self, text: &str, face: Face, (into, indent): (f64, f64), most: usize) {
-        let most = most.min(self.set.lines);
+        let most = self.most(most);
         for (k, line) in lines(text, face, self.width - into, indent, most).iter().enumerate() {
             self.y += LINE * face.size;
             let x = self.left + into + if k == 0 { indent } else { 0.0 };
             self.put(line, face, (x, self.y), Anchor::Start);
         }
+    }
+
+    /// So many lines at most; a column that has no end has room for all.
+    fn most(&self, most: usize) -> usize {
+        if self.set.wide { most.min(self.set.lines) } else { usize::MAX }
     }
 
     fn put(&mut self, line: &str, face: Face, (x, y): (f64, f64), anchor: Anchor) {

@@ -43,14 +43,14 @@ impl CustomerReport {
     }
 
     /// The two pages.
-    pub(super) fn pages(&self) -> [Picture; 2] {
+    pub fn pages(&self) -> [Picture; 2] {
         [self.fitted(1, &self.first()), self.fitted(2, &self.second())]
     }
 
     /// Both in one column.
     pub(super) fn column(&self) -> Picture {
         let (width, margin, body, figure) = PHONE;
-        let set = Setting { body, figure, lines: usize::MAX, wide: false };
+        let set = Setting { body, figure, lines: 0, wide: false };
         let mut picture = Picture::new("report", self.title(), width, 0.0);
         let mut column = Column { picture: &mut picture, set, left: margin, width: width - 2.0 * margin, y: margin };
         column.draw(&self.first());
