@@ -3,8 +3,8 @@
 mod analyze;
 mod analyze_bearings;
 mod analyze_inputs;
-mod analyze_several;
 mod analyze_report;
+mod analyze_several;
 mod analyze_size;
 mod analyze_together;
 mod analyze_trend;

@@ -27,19 +27,29 @@ fn words(html: &str) -> String {
 #[test]
 fn regress_the_report_as_html_and_pdf_with_what_was_given() {
     let folder = records();
-    let given = [
-        "-o", "report.html", "--pdf", "report.pdf", "--title", "Pump check", "--machine", "P-301", "--point", "drive end",
-        "--date", "2026-03-02", "--author", "A. Writer", "--damage-kind", "false-brinelling", "--machine-class", "2-rigid",
-        "--size", "--json", "all.json",
-    ];
+    let named = ["--title", "Pump check", "--point", "drive end", "--author", "A. Writer"];
+    let rest = "-o report.html --pdf report.pdf --machine P-301 --date 2026-03-02 --damage-kind false-brinelling \
+                --machine-class 2-rigid --size --json all.json";
+    let given = [&named[..], &rest.split_whitespace().collect::<Vec<_>>()].concat();
     let done = brinell(folder.path(), &call(&["bad.csv"], &given));
     done.exits(0).keeps_quiet().says(&["Outer race damage", "wrote all.json", "wrote report.html", "wrote report.pdf"]);
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
     let said = words(&html);
     for part in [
-        "Pump check", "P-301", "drive end", "2026-03-02", "A. Writer", "1800 r/min, as given", "The outer race is damaged",
-        "false brinelling (ISO 15243:2017, 5.3.3.3)", "of ISO 20816-3 for group 2, rigid support", "Length:", "bad.csv",
-        "95 % interval", "page 1 of 2", "page 2 of 2",
+        "Pump check",
+        "P-301",
+        "drive end",
+        "2026-03-02",
+        "A. Writer",
+        "1800 r/min, as given",
+        "The outer race is damaged",
+        "false brinelling (ISO 15243:2017, 5.3.3.3)",
+        "of ISO 20816-3 for group 2, rigid support",
+        "Length:",
+        "bad.csv",
+        "95 % interval",
+        "page 1 of 2",
+        "page 2 of 2",
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }
@@ -54,7 +64,9 @@ fn regress_the_report_as_html_and_pdf_with_what_was_given() {
     let again = call(&["good_2026-03-02.csv"], &["-o", "report.html", "--pdf", "report.pdf", "-q"]);
     brinell(folder.path(), &again).exits(0).keeps_quiet();
     let said = words(&fs::read_to_string(folder.path().join("report.html")).unwrap());
-    for part in ["No damage found", "2026-03-02, by the name of the", "not stated", "the class of the machine was not given"] {
+    for part in
+        ["No damage found", "2026-03-02, by the name of the", "not stated", "the class of the machine was not given"]
+    {
         assert!(said.contains(part), "{part}: {said}");
     }
 }
@@ -120,9 +132,17 @@ fn regress_what_a_report_does_not_take() {
         (one, &["-o", "r.html", "--date", "tomorrow"], "expected a date as 2024-02-12T10:32:39"),
         (one, &["-o", "r.html", "--date", "2026-03-02", "--date", "2026-03-03"], "--date: 2 dates, expected one"),
         (both, &["-o", "r.html"], "2 files: the customer's report is of one record"),
-        (both, &["-o", "r.html", "--trend", "--date", "2026-03-01", "--date", "2026-03-02"], "--trend: the customer's report is of one"),
+        (
+            both,
+            &["-o", "r.html", "--trend", "--date", "2026-03-01", "--date", "2026-03-02"],
+            "--trend: the customer's report is of one",
+        ),
         (&["short.csv"], &["--pdf", "r.pdf"], "The customer's report takes a verdict"),
-        (&["short.csv"], &["--pdf", "r.pdf", "--channel", "1", "--channel", "acc"], "The customer's report takes a verdict"),
+        (
+            &["short.csv"],
+            &["--pdf", "r.pdf", "--channel", "1", "--channel", "acc"],
+            "The customer's report takes a verdict",
+        ),
     ];
     for (what, more, part) in cases {
         let done = brinell(folder.path(), &call(what, more)).exits(2);

@@ -14,10 +14,6 @@ pub(super) fn judged(found: &Findings) -> Judged {
     let (m, result) = (&found.measurement, found.lead());
     let name = |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let files: Vec<String> = m.records().map(|record| name(&record.path)).collect();
-    let speed = m.speed.as_ref().map_or_else(String::new, |speed| {
-        let rpm = (100.0 * speed.value.rpm).round() / 100.0;
-        format!("{rpm} r/min, {}", speed.source)
-    });
     let of = |one: &Diagnosis| (one.name.clone(), called(one));
     on_page(found, |findings| {
         Judged::of(JudgedOf {
@@ -26,7 +22,7 @@ pub(super) fn judged(found: &Findings) -> Judged {
             channel: &m.channel.value,
             bearing: &result.name,
             bearings: found.bearings.iter().map(of).collect(),
-            speed,
+            speed: m.speed_words(),
             size: result.size_words(),
         })
     })
@@ -46,7 +42,9 @@ pub(super) fn write(
     };
     let missing = report.missing_letters();
     if pdf.is_some() && !missing.is_empty() && !args.quiet {
-        complain!("warning: the PDF has ? in place of letters that its typeface lacks: {missing}; the HTML (-o REPORT.html) shows them");
+        complain!(
+            "warning: the PDF has ? in place of letters that its typeface lacks: {missing}; the HTML (-o REPORT.html) shows them"
+        );
     }
     // Both or none.
     let html = html.map(|path| atomic_prepare(path, report.html())).transpose()?;

@@ -100,11 +100,12 @@ impl AnalyzeArgs {
         let one = "the customer's report is of one record; name one file, with --channel again for further channels";
         match found {
             _ if self.trend.trend => usage(format!("--trend: {one}. -o FOLDER writes the page of a trend")),
-            Files::Several(paths) if !self.together => usage(format!(
-                "{} files: {one}, or --together for one verdict on all",
-                paths.len()
-            )),
-            _ if self.trend.date.len() > 1 => usage(format!("--date: {} dates, expected one: {one}", self.trend.date.len())),
+            Files::Several(paths) if !self.together => {
+                usage(format!("{} files: {one}, or --together for one verdict on all", paths.len()))
+            }
+            _ if self.trend.date.len() > 1 => {
+                usage(format!("--date: {} dates, expected one: {one}", self.trend.date.len()))
+            }
             _ => Ok(()),
         }
     }

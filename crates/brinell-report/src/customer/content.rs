@@ -13,7 +13,7 @@ use brinell::signal::{Estimate, Indicator};
 pub struct JudgedOf<'a> {
     /// What the page of the analysis is made of.
     pub findings: Findings<'a>,
-    /// Names of its files.
+    /// Names of its files; none of a signal that is in none.
     pub files: &'a [String],
     /// The channel's name.
     pub channel: &'a str,
@@ -46,22 +46,23 @@ impl Judged {
             Some(used) => format!("{}. {used}", of.speed),
             None => of.speed,
         };
-        let record = format!(
-            "{} s, {} samples at {} Hz, in {}",
-            short(a.duration(), 4),
-            a.samples,
-            m.rate,
-            shown(unit)
-        );
+        let record =
+            format!("{} s, {} samples at {} Hz, in {}", short(a.duration(), 4), a.samples, m.rate, shown(unit));
         let row = |label: &str, words: String| (label.to_owned(), words);
-        let mut provenance = vec![
-            row(if of.files.len() > 1 { "Files" } else { "File" }, listed(of.files)),
+        let file = match of.files.len() {
+            0 => None,
+            1 => Some(row("File", listed(of.files))),
+            _ => Some(row("Files", listed(of.files))),
+        };
+        let mut provenance: Vec<(String, String)> = file.into_iter().collect();
+        provenance.extend([
             row("Channel", of.channel.to_owned()),
             row(if a.records > 1 { "Records" } else { "Record" }, record),
             row("Speed", told),
             row("Bearing", of.findings.bearing.to_owned()),
-        ];
-        provenance.extend(of.findings.levels.class.map(|class| row("Class", format!("{} (ISO 20816-3)", class.words()))));
+        ]);
+        provenance
+            .extend(of.findings.levels.class.map(|class| row("Class", format!("{} (ISO 20816-3)", class.words()))));
         provenance.push(row("Program", format!("brinell {}, analyze", brinell::VERSION)));
         let named = !of.bearing.is_empty();
         Self {
@@ -147,7 +148,8 @@ fn whole(levels: &Levels) -> Whole {
     let (zone, words) = match (levels.zone, levels.class) {
         (Some(Ok(zone)), Some(class)) => {
             let [ab, bc, cd] = class.boundaries();
-            let limits = [format!("up to {ab}"), format!("{ab} to {bc}"), format!("{bc} to {cd}"), format!("above {cd}")];
+            let limits =
+                [format!("up to {ab}"), format!("{ab} to {bc}"), format!("{bc} to {cd}"), format!("above {cd}")];
             let words = format!(
                 "{level}: zone {} of ISO 20816-3 for {} ({} mm/s), {}.",
                 zone.name(),
@@ -165,14 +167,23 @@ fn whole(levels: &Levels) -> Whole {
 
 /// Each defect frequency: where it should be, where it is, and how much of it.
 fn evidence(a: &Analysis) -> Table {
-    let rows = a.families.iter().zip(a.rows()).map(|(family, [part, name, found, off, harmonics, db, modulation, says])| {
-        let expected = format!("{:.2}", family.expected);
-        let is_found = family.finding != Finding::Silent;
-        let [found, off] = [found, off].map(|cell| if is_found { cell } else { "–".into() });
-        vec![part, name, expected, found, off, harmonics, db, modulation, says]
-    });
+    let rows =
+        a.families.iter().zip(a.rows()).map(|(family, [part, name, found, off, harmonics, db, modulation, says])| {
+            let expected = format!("{:.2}", family.expected);
+            let is_found = family.finding != Finding::Silent;
+            let [found, off] = [found, off].map(|cell| if is_found { cell } else { "–".into() });
+            vec![part, name, expected, found, off, harmonics, db, modulation, says]
+        });
     let heads = [
-        "Part", "Rate", "#Expected, Hz", "#Found, Hz", "#Deviation, %", "Multiples", "#Over noise, dB", "#Modulation, %", "Assessment",
+        "Part",
+        "Rate",
+        "#Expected, Hz",
+        "#Found, Hz",
+        "#Deviation, %",
+        "Multiples",
+        "#Over noise, dB",
+        "#Modulation, %",
+        "Assessment",
     ];
     Table::new("Defect frequencies", heads, rows, "")
 }
@@ -192,9 +203,12 @@ fn levels(of: &Findings) -> Table {
     rows.extend(a.indicator(Indicator::Kurtosis).map(|e| row("Kurtosis (noise: 3)", &e, "")));
     rows.extend(of.levels.velocity.as_ref().ok().map(|v| row("RMS velocity", &scaled(v, 1e3), "mm/s")));
     rows.extend(of.levels.band.map(|band| row("RMS of the envelope", &band.envelope_rms, &unit)));
-    let band = of.levels.band.map_or(String::new(), |b| format!("; envelope of {:.0} to {:.0} Hz", b.band.low, b.band.high));
+    let band =
+        of.levels.band.map_or(String::new(), |b| format!("; envelope of {:.0} to {:.0} Hz", b.band.low, b.band.high));
     let note = match of.unit.quantity {
-        Quantity::Acceleration | Quantity::Velocity => format!("Velocity of {:.0} to {:.0} Hz{band}.", SEVERITY_BAND.low, SEVERITY_BAND.high),
+        Quantity::Acceleration | Quantity::Velocity => {
+            format!("Velocity of {:.0} to {:.0} Hz{band}.", SEVERITY_BAND.low, SEVERITY_BAND.high)
+        }
         _ => band.trim_start_matches("; ").to_owned(),
     };
     Table::new("Levels", ["Level", "#Value", "#95 % interval", "Unit"], rows, note)
@@ -241,10 +255,14 @@ fn all(signals: &[Judged], without: &[NotJudged]) -> Table {
         let zone = one.whole.zone.map_or("–", |zone| zone.name()).to_owned();
         let score = one.score.map_or("–".into(), |score| format!("{score:.1}"));
         let channel = one.channel.clone();
-        one.bearings.iter().enumerate().map(|(k, (bearing, called))| {
-            let first = |cell: &String| if k == 0 { cell.clone() } else { String::new() };
-            vec![first(&channel), bearing.clone(), called.clone(), first(&score), first(&velocity), first(&zone)]
-        }).collect::<Vec<_>>()
+        one.bearings
+            .iter()
+            .enumerate()
+            .map(|(k, (bearing, called))| {
+                let first = |cell: &String| if k == 0 { cell.clone() } else { String::new() };
+                vec![first(&channel), bearing.clone(), called.clone(), first(&score), first(&velocity), first(&zone)]
+            })
+            .collect::<Vec<_>>()
     };
     let none = |(name, why): &NotJudged| {
         let dash = || "–".to_owned();
@@ -252,7 +270,12 @@ fn all(signals: &[Judged], without: &[NotJudged]) -> Table {
     };
     let rows = signals.iter().flat_map(of).chain(without.iter().map(none));
     let heads = ["Channel", "Bearing", "Finding", "#Score", "#mm/s RMS", "Zone"];
-    Table::new("Channels", heads, rows, "The clearest damage leads; a channel that shows none does not take it back. Score: how far the lines rise over the noise; the verdict also takes how deep they modulate.")
+    Table::new(
+        "Channels",
+        heads,
+        rows,
+        "The clearest damage leads; a channel that shows none does not take it back. Score: how far the lines rise over the noise; the verdict also takes how deep they modulate.",
+    )
 }
 
 #[cfg(test)]

@@ -357,9 +357,8 @@ impl Column<'_> {
     fn widths(&self, heads: &[&str], rows: &[Vec<String>], (face, head): (Face, Face)) -> Vec<f64> {
         const BETWEEN: f64 = 10.0;
         let most = 0.4 * self.width;
-        let longest = |face: Face, text: &str| {
-            text.split_whitespace().map(|word| face.width(word)).fold(0.0, f64::max).min(most)
-        };
+        let longest =
+            |face: Face, text: &str| text.split_whitespace().map(|word| face.width(word)).fold(0.0, f64::max).min(most);
         // A head may take two lines.
         let head_of = |k: usize| longest(head, heads[k]).max(0.56 * head.width(heads[k]));
         let width = |k: usize, of: &dyn Fn(&str) -> f64| {
@@ -403,7 +402,9 @@ mod tests {
     #[test]
     fn prop_no_line_is_wider_than_its_room_and_no_word_is_lost() {
         let long = "x".repeat(500);
-        for text in ["a few words that take more than one line of so little room", &long, "漢字漢字漢字漢字漢字 漢字", ""] {
+        for text in
+            ["a few words that take more than one line of so little room", &long, "漢字漢字漢字漢字漢字 漢字", ""]
+        {
             for (room, indent) in [(60.0, 0.0), (60.0, 30.0), (200.0, 199.0)] {
                 let face = Face::new(12.0, ink::TEXT);
                 let all = lines(text, face, room, indent, usize::MAX - 1);

@@ -19,8 +19,7 @@ const FOOT: f64 = 30.0;
 /// Height of a picture on paper, px: at most, and what is tried at least.
 const FIGURE: (f64, f64) = (360.0, 170.0);
 /// How a page is set, the widest first: size of text (px, a quarter mm), and lines of a paragraph at most.
-const SETTINGS: [(f64, usize); 7] =
-    [(13.4, 12), (12.8, 12), (12.2, 12), (11.6, 8), (11.2, 5), (10.8, 3), (10.4, 2)];
+const SETTINGS: [(f64, usize); 7] = [(13.4, 12), (12.8, 12), (12.2, 12), (11.6, 8), (11.2, 5), (10.8, 3), (10.4, 2)];
 /// On a phone: width, margin, size of text and height of a picture, px.
 const PHONE: (f64, f64, f64, f64) = (360.0, 14.0, 13.0, 260.0);
 /// Rows of the table of channels.
@@ -159,7 +158,8 @@ impl CustomerReport {
             Block::List { items: NOT_SAID.map(str::to_owned).to_vec(), numbered: false },
         ];
         let source = vec![Block::Heading("Where it comes from"), Block::Facts(lead.provenance.clone())];
-        let mut method = vec![Block::Heading("Method"), Block::Text { first: "", words: lead.method.clone(), most: 12 }];
+        let mut method =
+            vec![Block::Heading("Method"), Block::Text { first: "", words: lead.method.clone(), most: 12 }];
         let warnings = &lead.report.warnings;
         if !warnings.is_empty() {
             let more = warnings.len().saturating_sub(REMARKS);

@@ -53,7 +53,9 @@ pub(super) fn sure(judged: &Judged) -> &'static str {
             "clear, the second of three grades: the evidence is that of damage, and something (such as the speed) is not confirmed by the record itself, or it is less strong than in most."
         }
         (Verdict::Damage, _) => "weak, the lowest of three grades: something healthy may look the same.",
-        (Verdict::CannotTell, _) => "open. The record holds too little, or something that this bearing does not explain.",
+        (Verdict::CannotTell, _) => {
+            "open. The record holds too little, or something that this bearing does not explain."
+        }
         (Verdict::NothingFound, _) => {
             "this is no proof of a sound bearing. Small damage, poor lubrication or damage far from the sensor may not show; some measured records of damaged bearings look the same."
         }
@@ -67,9 +69,10 @@ pub(super) fn grade(of: &CustomerReport) -> (&'static str, String) {
     match (damaged, of.whole.zone) {
         (true, Some(zone @ Zone::D)) => ("Severe:", format!("{}.", whole(zone))),
         (true, Some(zone @ Zone::C)) => ("Elevated:", format!("{}.", whole(zone))),
-        (true, Some(zone)) => {
-            ("Limited so far:", format!("the bearing shows the damage, the machine as a whole does not (zone {}).", zone.name()))
-        }
+        (true, Some(zone)) => (
+            "Limited so far:",
+            format!("the bearing shows the damage, the machine as a whole does not (zone {}).", zone.name()),
+        ),
         (true, None) => ("Not graded:", "the record gives no zone of ISO 20816-3.".into()),
         (false, Some(zone @ (Zone::C | Zone::D))) => {
             ("Not by the bearing,", format!("as far as the record shows: {}.", whole(zone)))
@@ -96,7 +99,8 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
     let mut steps = Vec::new();
     let high = matches!(of.whole.zone, Some(Zone::C | Zone::D));
     if of.whole.zone == Some(Zone::D) {
-        steps.push("Zone D: act at once by the plant's own rule for it; vibration of this zone may damage the machine.");
+        steps
+            .push("Zone D: act at once by the plant's own rule for it; vibration of this zone may damage the machine.");
     }
     match (of.lead.verdict, of.lead.clarity) {
         (Verdict::Damage, "weak") => steps.extend([
@@ -130,7 +134,9 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
         }
     }
     if high && of.lead.verdict != Verdict::Damage {
-        steps.push("Look for the cause of the machine's vibration elsewhere: unbalance, misalignment, looseness, resonance.");
+        steps.push(
+            "Look for the cause of the machine's vibration elsewhere: unbalance, misalignment, looseness, resonance.",
+        );
     }
     steps
 }
