@@ -266,6 +266,8 @@ impl Findings {
                 Judged::of(JudgedOf {
                     findings,
                     files: &[],
+                    notes: &self.found.notes,
+                    simulated: m.run.is_some() || lead.analysis.options.exact,
                     channel: &m.channel.value,
                     bearing: &lead.name,
                     bearings: vec![(lead.name.clone(), String::new())],

@@ -42,6 +42,8 @@ fn judged(height: f64) -> Judged {
             against: None,
         },
         files: &["pump.csv".into()],
+        notes: &["unit m/s^2, as given".into()],
+        simulated: false,
         channel: "acc",
         bearing: "6205-2RS",
         bearings: vec![("6205-2RS".into(), "outer race, very clear".into())],
@@ -269,6 +271,9 @@ fn prop_noise_is_no_damage_and_the_clearest_of_several_leads() {
         assert!(words.contains(part), "{part}: {words}");
     }
     assert!(CustomerReport::of(heading(), Vec::new(), &without).is_none());
+    assert!(!words.contains("Simulated:") && words.contains("unit m/s^2, as given"));
+    let simulated = said(&self::report(heading(), vec![Judged { simulated: true, ..DAMAGED.clone() }]));
+    assert!(simulated.contains("Simulated: no machine was measured"), "{simulated}");
 }
 
 /// Whether a page is white in its margins and between its text and its foot; what would cross the edge of the paper

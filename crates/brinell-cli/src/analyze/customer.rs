@@ -19,6 +19,8 @@ pub(super) fn judged(found: &Findings) -> Judged {
         Judged::of(JudgedOf {
             findings,
             files: &files,
+            notes: &found.notes,
+            simulated: m.run.is_some(),
             channel: &m.channel.value,
             bearing: &result.name,
             bearings: found.bearings.iter().map(of).collect(),

@@ -15,6 +15,10 @@ pub struct JudgedOf<'a> {
     pub findings: Findings<'a>,
     /// Names of its files; none of a signal that is in none.
     pub files: &'a [String],
+    /// Where channel, rate and unit come from, and what else is said of the record.
+    pub notes: &'a [String],
+    /// Whether a simulation made it.
+    pub simulated: bool,
     /// The channel's name.
     pub channel: &'a str,
     /// The name of the bearing that leads; may be empty.
@@ -67,6 +71,7 @@ impl Judged {
         let named = !of.bearing.is_empty();
         Self {
             channel: of.channel.to_owned(),
+            simulated: of.simulated,
             bearing: if named { of.bearing.to_owned() } else { of.findings.bearing.to_owned() },
             bearings: of.bearings,
             speed,

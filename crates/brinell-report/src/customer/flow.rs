@@ -276,7 +276,7 @@ impl Column<'_> {
             clip: None,
         };
         self.picture.shapes.splice(at..at, [filled(place, 0.1), filled(Rect { right: left + 5.0, ..place }, 1.0)]);
-        self.gap(0.4);
+        self.gap(0.6);
     }
 
     fn figure(&mut self, draw: &dyn Fn(Size) -> Picture, caption: &str) {

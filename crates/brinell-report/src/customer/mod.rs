@@ -50,6 +50,8 @@ pub struct Whole {
 pub struct Judged {
     /// The channel's name.
     pub channel: String,
+    /// Whether a simulation made it, and no machine was measured.
+    pub simulated: bool,
     /// The bearing's name, or where its frequencies come from.
     pub bearing: String,
     /// Of each bearing that was asked about its name, and what is found of it in a word or two.

@@ -17,7 +17,7 @@ const MARGIN: (f64, f64) = (60.0, 46.0);
 /// Room for the line at the foot, px.
 const FOOT: f64 = 30.0;
 /// Height of a picture on paper, px: at most, and what is tried at least.
-const FIGURE: (f64, f64) = (360.0, 170.0);
+const FIGURE: (f64, f64) = (360.0, 195.0);
 /// How a page is set, the widest first: size of text (px, a quarter mm), and lines of a paragraph at most.
 const SETTINGS: [(f64, usize); 7] = [(13.4, 12), (12.8, 12), (12.2, 12), (11.6, 8), (11.2, 5), (10.8, 3), (10.4, 2)];
 /// On a phone: width, margin, size of text and height of a picture, px.
@@ -113,6 +113,9 @@ impl CustomerReport {
             facts.push(("Channel that leads".to_owned(), lead.channel.clone()));
         }
         let mut said = vec![("", lead.reason.clone()), ("How sure:", sure(lead).to_owned())];
+        if lead.simulated {
+            said.push(("Simulated:", "no machine was measured; a simulation made this record.".to_owned()));
+        }
         match lead.report.warnings.len() {
             0 => {}
             1 => said.push(("Note:", "there is a remark on the record; see page 2.".to_owned())),
