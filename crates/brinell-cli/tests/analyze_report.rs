@@ -117,7 +117,7 @@ fn regress_what_a_report_does_not_take() {
     let before = files(folder.path());
     let both = &["bad.csv", "good_2026-03-02.csv"][..];
     let one = &["bad.csv"][..];
-    let cases: [(&[&str], &[&str], &str); 17] = [
+    let cases: [(&[&str], &[&str], &str); 18] = [
         (one, &["--title", "x"], "--title: no report to put it in; give -o REPORT.html or --pdf REPORT.pdf"),
         (one, &["--author", "x", "-o", "look"], "--author: no report to put it in"),
         (one, &["--damage-kind", "overload"], "--damage-kind: no report to put it in"),
@@ -127,6 +127,7 @@ fn regress_what_a_report_does_not_take() {
         (one, &["--pdf", "mine.pdf"], "mine.pdf: a file that is no customer's report of brinell's is there"),
         (one, &["--pdf", "report.html"], "--pdf report.html: expected a name that ends in .pdf"),
         (one, &["--pdf", "none/r.pdf"], "none"),
+        (one, &["-o", "look", "--pdf", "look/r.pdf"], "it lies in the folder of -o"),
         (one, &["-o", "r.html", "--json", "r.html"], "expected another file than the report's"),
         (one, &["-o", "r.html", "--plots", "png"], "pictures go to a folder"),
         (one, &["-o", "r.html", "--date", "tomorrow"], "expected a date as 2024-02-12T10:32:39"),

@@ -65,6 +65,9 @@ impl Judged {
             row("Speed", told),
             row("Bearing", of.findings.bearing.to_owned()),
         ]);
+        if !of.notes.is_empty() {
+            provenance.push(row("Sources", of.notes.join("; ")));
+        }
         provenance
             .extend(of.findings.levels.class.map(|class| row("Class", format!("{} (ISO 20816-3)", class.words()))));
         provenance.push(row("Program", format!("brinell {}, analyze", brinell::VERSION)));
