@@ -271,7 +271,7 @@ fn prop_noise_is_no_damage_and_the_clearest_of_several_leads() {
         assert!(words.contains(part), "{part}: {words}");
     }
     assert!(CustomerReport::of(heading(), Vec::new(), &without).is_none());
-    assert!(!words.contains("Simulated:") && words.contains("unit m/s^2, as given"));
+    assert!(!words.contains("Simulated:") && words.contains("unit m/s², as given"));
     let simulated = said(&self::report(heading(), vec![Judged { simulated: true, ..DAMAGED.clone() }]));
     assert!(simulated.contains("Simulated: no machine was measured"), "{simulated}");
 }

@@ -5,7 +5,7 @@ use super::{CustomerReport, Heading, Judged, NotJudged, Whole};
 use crate::analysis::{AnalysisReport, Findings, scaled, with_interval};
 use crate::number::short;
 use crate::tables::Table;
-use brinell::analysis::{Analysis, Finding, Levels, Quantity, SEVERITY_BAND, Unexplained, Verdict};
+use brinell::analysis::{Analysis, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
 use brinell::signal::{Estimate, Indicator};
 
 /// One signal, with what was found in it and what it was given with.
@@ -66,7 +66,7 @@ impl Judged {
             row("Bearing", of.findings.bearing.to_owned()),
         ]);
         if !of.notes.is_empty() {
-            provenance.push(row("Sources", of.notes.join("; ")));
+            provenance.push(row("Sources", shown(&of.notes.join("; "))));
         }
         provenance
             .extend(of.findings.levels.class.map(|class| row("Class", format!("{} (ISO 20816-3)", class.words()))));
@@ -213,11 +213,9 @@ fn levels(of: &Findings) -> Table {
     rows.extend(of.levels.band.map(|band| row("RMS of the envelope", &band.envelope_rms, &unit)));
     let band =
         of.levels.band.map_or(String::new(), |b| format!("; envelope of {:.0} to {:.0} Hz", b.band.low, b.band.high));
-    let note = match of.unit.quantity {
-        Quantity::Acceleration | Quantity::Velocity => {
-            format!("Velocity of {:.0} to {:.0} Hz{band}.", SEVERITY_BAND.low, SEVERITY_BAND.high)
-        }
-        _ => band.trim_start_matches("; ").to_owned(),
+    let note = match of.levels.velocity {
+        Ok(_) => format!("Velocity of {:.0} to {:.0} Hz{band}.", SEVERITY_BAND.low, SEVERITY_BAND.high),
+        Err(_) => crate::number::capital(band.trim_start_matches("; ")),
     };
     Table::new("Levels", ["Level", "#Value", "#95 % interval", "Unit"], rows, note)
 }
