@@ -117,6 +117,7 @@ class Run:
 @final
 class Findings:
     def to_html(self, title: str) -> str: ...
+    def to_report(self, path: str | PathLike[str], heading: Sequence[str], damage_kind: str | None) -> None: ...
 
 @final
 class Campaign:

@@ -64,9 +64,42 @@ class Analysis:
         title : str
             What the signal is called.
         """
+        return self._own().to_html(title)
+
+    def to_report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        title: str = "",
+        machine: str = "",
+        point: str = "",
+        date: Any = "",
+        author: str = "",
+        damage_kind: str | None = None,
+    ) -> None:
+        """Write the customer's report: two pages of A4 in plain words, as HTML or PDF, in place of a file that is there.
+
+        It shows the array that was analysed, as `to_html` does.
+
+        Parameters
+        ----------
+        path : path
+            A name that ends in ``.html`` or ``.pdf``.
+        title, machine, point, author : str
+            What stands above it; what is empty is "not stated".
+        date : str or date
+            When the record was taken, as ``str`` gives it.
+        damage_kind : str, optional
+            The kind of damage that somebody has seen, by ISO 15243: ``"subsurface-fatigue"``, ``"false-brinelling"`` and others, which the message
+            on a wrong one lists. Vibration does not tell it.
+        """
+        self._own().to_report(os.fspath(path), [title, machine, point, str(date), author], damage_kind)
+
+    def _own(self) -> _brinell.Findings:
+        """What was found, where it was found."""
         if self._findings is None:
             raise RuntimeError("this verdict came from another process: its page is to be requested there")
-        return self._findings.to_html(title)
+        return self._findings
 
     def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
         """The envelope spectrum with what was looked for."""

@@ -3,6 +3,7 @@
 mod analyze;
 mod analyze_bearings;
 mod analyze_inputs;
+mod analyze_report;
 mod analyze_several;
 mod analyze_size;
 mod analyze_together;

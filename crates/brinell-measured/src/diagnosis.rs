@@ -93,19 +93,19 @@ impl Diagnosis {
         // What answers the question comes first.
         let at = if self.lines_of.is_some() { 0 } else { 1 };
         said.splice(at..at, self.beside.clone());
-        said.extend(self.size_text());
+        said.extend(self.size_words().map(|words| format!("Size: {words}")));
         said.extend(self.wrong.clone());
         said.join(" ")
     }
 
     /// The length of the damage in words, where it was asked.
-    fn size_text(&self) -> Option<String> {
+    pub fn size_words(&self) -> Option<String> {
         Some(match self.size.as_ref()? {
             Ok(told) => format!(
-                "Size: {:.1} mm along the rolling direction, 95 % of simulated damage within {:.1} to {:.1} mm, if shorter than {:.1} mm.",
+                "{:.1} mm along the rolling direction, 95 % of simulated damage within {:.1} to {:.1} mm, if shorter than {:.1} mm.",
                 told.value, told.interval.low, told.interval.high, told.most
             ),
-            Err(why) => format!("Size: cannot tell: {why}."),
+            Err(why) => format!("cannot tell: {why}."),
         })
     }
 

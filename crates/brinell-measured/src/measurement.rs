@@ -198,6 +198,14 @@ impl Measurement {
         [&self.rate.doubts, &self.unit.doubts, &self.warnings].into_iter().flatten().cloned().collect()
     }
 
+    /// The shaft's speed and where it comes from, in words; empty where nobody says it.
+    pub fn speed_words(&self) -> String {
+        // A mean has more digits than anybody reads.
+        let rounded = |rpm: f64| (100.0 * rpm).round() / 100.0;
+        let words = |speed: &Known<Turning>| format!("{} r/min, {}", rounded(speed.value.rpm), speed.source);
+        self.speed.as_ref().map_or_else(String::new, words)
+    }
+
     /// Length of the stretch, s.
     pub fn seconds(&self) -> f64 {
         self.x.len() as f64 / self.rate.value

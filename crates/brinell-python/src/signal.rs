@@ -7,12 +7,14 @@ use crate::wait::unstoppable;
 use brinell::analysis::{AnalysisError, MachineClass, to_json};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
 use brinell_measured::{Asked, Called, Elements, GivenSpeed, Measurement, Problem, Request, examine};
-use brinell_report::{AnalysisReport, Analyzed, html};
+use brinell_report::{AnalysisReport, Analyzed, CustomerReport, DamageKind, Heading, Judged, JudgedOf, html};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Map, json};
 use std::fmt::Display;
+use std::path::PathBuf;
 
 fn failed(error: impl Display) -> PyErr {
     SignalError::new_err(error.to_string())
@@ -231,24 +233,78 @@ pub(crate) struct Findings {
 impl Findings {
     /// What `report.html` of `brinell analyze -o` holds.
     fn to_html(&self, py: Python<'_>, title: &str) -> PyResult<String> {
-        let array = self.x.bind(py).try_readonly().map_err(bad_value)?;
-        let x: Vec<f64> = array.as_array().iter().map(|v| self.factor * v).collect();
-        let (found, lead, m) = (&self.found, self.found.lead(), &self.found.measurement);
-        Ok(py.detach(|| {
-            let report = AnalysisReport::of_findings(&brinell_report::Findings {
-                signal: Analyzed { name: title, x: &x, rate: m.rate.value, analysis: &lead.analysis },
-                unit: &m.unit.value,
-                verdict: &lead.verdict_text(),
-                notes: &found.notes,
-                warnings: &found.warnings,
-                speed: &found.speed,
-                bearing: &lead.said_of_bearing(),
-                levels: &lead.levels,
-                velocity: found.velocity.as_ref(),
-                against: None,
+        let x = self.samples(py)?;
+        Ok(py.detach(|| self.on_page(&x, title, |findings| html(&AnalysisReport::of_findings(&findings).into()))))
+    }
+
+    /// Writes the customer's report, as HTML or PDF; what stands above it is title, machine, point, date and author.
+    fn to_report(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        heading: [String; 5],
+        damage_kind: Option<&str>,
+    ) -> PyResult<()> {
+        let kind = |name: &str| {
+            DamageKind::all().find(|kind| kind.name() == name).ok_or_else(|| {
+                let names: Vec<&str> = DamageKind::all().map(DamageKind::name).collect();
+                bad_value(format!("damage_kind = \"{name}\": no such kind\n  allowed: {}", names.join(", ")))
+            })
+        };
+        let [title, machine, point, date, author] = heading;
+        let heading = Heading { title, machine, point, date, author, kind: damage_kind.map(kind).transpose()? };
+        let has = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+        let is_pdf = has("pdf");
+        if !is_pdf && !has("html") {
+            let path = path.display();
+            return Err(bad_value(format!("path = \"{path}\": expected a name that ends in .html or .pdf")));
+        }
+        let x = self.samples(py)?;
+        let (lead, m) = (self.found.lead(), &self.found.measurement);
+        let bytes = py.detach(|| {
+            let judged = self.on_page(&x, "signal", |findings| {
+                Judged::of(JudgedOf {
+                    findings,
+                    files: &[],
+                    notes: &self.found.notes,
+                    simulated: m.run.is_some() || lead.analysis.options.exact,
+                    channel: &m.channel.value,
+                    bearing: &lead.name,
+                    bearings: vec![(lead.name.clone(), String::new())],
+                    speed: m.speed_words(),
+                    size: lead.size_words(),
+                })
             });
-            html(&report.into())
-        }))
+            let report = CustomerReport::of(heading, vec![judged], &[]);
+            report.map(|report| if is_pdf { report.pdf() } else { report.html().into_bytes() }).unwrap_or_default()
+        });
+        brinell_io::atomic_write(&path, bytes).map_err(|error| PyOSError::new_err(error.to_string()))?;
+        Ok(())
+    }
+}
+
+impl Findings {
+    /// In the signal's unit.
+    fn samples(&self, py: Python<'_>) -> PyResult<Vec<f64>> {
+        let array = self.x.bind(py).try_readonly().map_err(bad_value)?;
+        Ok(array.as_array().iter().map(|v| self.factor * v).collect())
+    }
+
+    /// What pages are made of, of a signal called `name`.
+    fn on_page<T>(&self, x: &[f64], name: &str, make: impl FnOnce(brinell_report::Findings) -> T) -> T {
+        let (found, lead, m) = (&self.found, self.found.lead(), &self.found.measurement);
+        make(brinell_report::Findings {
+            signal: Analyzed { name, x, rate: m.rate.value, analysis: &lead.analysis },
+            unit: &m.unit.value,
+            verdict: &lead.verdict_text(),
+            notes: &found.notes,
+            warnings: &found.warnings,
+            speed: &found.speed,
+            bearing: &lead.said_of_bearing(),
+            levels: &lead.levels,
+            velocity: found.velocity.as_ref(),
+            against: None,
+        })
     }
 }
 

@@ -19,8 +19,16 @@ fn face(bold: bool) -> Option<&'static Face<'static>> {
     FACES[usize::from(bold)].as_ref()
 }
 
+/// What is drawn in place of a letter that the face lacks; it has no U+FFFD.
+const UNKNOWN: char = '?';
+
 fn glyph(face: &Face<'_>, c: char) -> GlyphId {
-    face.glyph_index(c).or_else(|| face.glyph_index('\u{fffd}')).unwrap_or(GlyphId(0))
+    face.glyph_index(c).or_else(|| face.glyph_index(UNKNOWN)).unwrap_or(GlyphId(0))
+}
+
+/// Whether the face has all letters of `text`.
+pub(crate) fn has(text: &str, bold: bool) -> bool {
+    face(bold).is_some_and(|face| text.chars().all(|c| face.glyph_index(c).is_some()))
 }
 
 /// The style rule with which a page or a picture brings its typeface along.
@@ -45,8 +53,9 @@ pub(crate) struct Glyph {
 /// The glyphs of `text`, one a character.
 pub(crate) fn glyphs(text: &str, bold: bool) -> impl Iterator<Item = Glyph> {
     face(bold).into_iter().flat_map(move |face| {
-        text.chars().map(move |character| {
-            let id = glyph(face, character);
+        text.chars().map(move |c| {
+            let id = glyph(face, c);
+            let character = if face.glyph_index(c).is_some() { c } else { UNKNOWN };
             let units = f64::from(face.glyph_hor_advance(id).unwrap_or(0));
             Glyph { id: id.0, character, advance: 1000.0 * units / f64::from(face.units_per_em()) }
         })
@@ -92,14 +101,26 @@ pub(crate) fn fitted(text: &str, size: f64, bold: bool, limit: f64) -> String {
     if width(text, size, bold) <= limit {
         return text.to_owned();
     }
-    let mut kept: String = text.to_owned();
-    while kept.pop().is_some() {
-        let candidate = format!("{}…", kept.trim_end());
-        if width(&candidate, size, bold) <= limit {
-            return candidate;
-        }
+    let (mut used, mut trimmed) = (width("…", size, bold), 0.0);
+    // The longest that fits; spaces before the ellipsis go.
+    let mut end = None;
+    if used <= limit {
+        end = Some(0);
     }
-    String::new()
+    for (at, c) in text.char_indices() {
+        let own = width(c.encode_utf8(&mut [0; 4]), size, bold);
+        if c.is_whitespace() {
+            trimmed += own;
+            continue;
+        }
+        used += trimmed + own;
+        trimmed = 0.0;
+        if used > limit {
+            break;
+        }
+        end = Some(at + c.len_utf8());
+    }
+    end.map_or(String::new(), |end| format!("{}…", &text[..end]))
 }
 
 /// Sends the outline of `text` to `draw`, pen at (x, y) on the baseline, y down; returns the pen's x after it.

@@ -21,6 +21,7 @@ mod axial;
 mod calibrate;
 mod chart;
 mod claims;
+mod customer;
 mod damage;
 mod data;
 mod defects;
@@ -64,6 +65,8 @@ pub use axial::{AxialRow, AxialSection, axial_section};
 pub use calibrate::{calibration_undetermined, calibration_verdict, interval_text};
 #[doc(hidden)]
 pub use claims::{ClaimCard, ClaimPart, Tagged};
+#[doc(hidden)]
+pub use customer::{CustomerReport, DamageKind, GENERATOR, Heading, Judged, JudgedOf, NotJudged, Whole};
 pub use damage::{DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch, PressureView};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_pressure, damage_section, load_along};

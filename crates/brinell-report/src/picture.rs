@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 mod curve;
-mod pdf;
+pub(crate) mod pdf;
 mod pixels;
 
 use crate::font;
@@ -125,7 +125,7 @@ impl Picture {
                     place.top += dy;
                     place.bottom += dy;
                 }
-                Shape::Open(_) | Shape::Close => {}
+                Shape::Open(_) | Shape::Figure(_) | Shape::Close => {}
             }
             self.shapes.push(shape);
         }
@@ -183,6 +183,15 @@ impl Picture {
         svg
     }
 
+    /// The same as a sheet of text, which is read letter by letter, and not as one picture.
+    pub(crate) fn sheet(&self, id: &str, class: &str) -> String {
+        let (width, height) = (coordinate(self.width), coordinate(self.height));
+        let mut svg = format!("<svg class=\"{class}\" viewBox=\"0 0 {width} {height}\">\n");
+        self.body(&mut svg, id);
+        svg.push_str("</svg>\n");
+        svg
+    }
+
     fn body(&self, svg: &mut String, id: &str) {
         let mut clips: Vec<Rect> = vec![];
         for shape in &self.shapes {
@@ -231,6 +240,9 @@ impl Picture {
                 Shape::Image { place, columns, pixels } => raster::write(svg, *place, *columns, pixels),
                 Shape::Open(class) => {
                     let _ = write!(svg, "<g class=\"{class}\">");
+                }
+                Shape::Figure(words) => {
+                    let _ = write!(svg, "<g role=\"img\" aria-label=\"{}\">", escape(words));
                 }
                 Shape::Close => svg.push_str("</g>"),
             }
@@ -288,6 +300,10 @@ fn write_text(svg: &mut String, text: &Text) {
     }
     if text.bold {
         svg.push_str(" font-weight=\"600\"");
+    }
+    if text.runs.iter().any(|run| !font::has(&run.text, text.bold)) {
+        // What another typeface writes takes the room that was laid out for it.
+        let _ = write!(svg, " textLength=\"{:.1}\" lengthAdjust=\"spacingAndGlyphs\"", text.width());
     }
     svg.push('>');
     let mut below = 0.0;

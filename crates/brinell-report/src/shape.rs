@@ -160,5 +160,7 @@ pub(crate) enum Shape {
     },
     /// Start of a named group, which the page's script may redraw.
     Open(&'static str),
+    /// Start of a group that is a picture of its own, with what it shows in words.
+    Figure(String),
     Close,
 }

@@ -1,5 +1,6 @@
 //! The options of `brinell analyze`.
 
+use super::customer_args::CustomerArgs;
 use super::signal_args::SignalArgs;
 use super::trend_args::TrendArgs;
 use crate::args::{Elements, quantity, shaft_speed};
@@ -29,7 +30,8 @@ use std::path::PathBuf;
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n  \
     brinell analyze records/ --together --rate 25600 --unit g --speed 1480 --bearing 6205    one verdict for all\n  \
-    brinell analyze records/ --trend --limit rms_velocity=4.5 --unit g --speed 1480 --bearing 6205 -o trend    a machine over time\n\n\
+    brinell analyze records/ --trend --limit rms_velocity=4.5 --unit g --speed 1480 --bearing 6205 -o trend    a machine over time\n  \
+    brinell analyze pump.csv ... -o report.html --pdf report.pdf --machine \"Pump 3\" --date 2026-03-02    the customer's report\n\n\
     Bearings by name: `brinell bearing list`, the catalogue and those known by their frequencies alone (6205-2RS, ER-16K, ZA-2115, 22205, 30204 and others); or a scenario file that has the bearing.\n\n\
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
@@ -132,8 +134,8 @@ pub(crate) struct AnalyzeArgs {
     /// Write the result as JSON; `-` prints it instead of words
     #[arg(long, value_name = "PATH|-")]
     pub(crate) json: Option<PathBuf>,
-    /// Folder for report.html, analysis.json and plots/
-    #[arg(short, long, value_name = "FOLDER")]
+    /// Folder for report.html, analysis.json and plots/; or FILE.html for the customer's report
+    #[arg(short, long, value_name = "FOLDER|FILE.html")]
     pub(crate) output: Option<PathBuf>,
     /// Replace the results of another signal or command in the folder, all of them
     #[arg(long, requires = "output")]
@@ -143,6 +145,8 @@ pub(crate) struct AnalyzeArgs {
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
+    #[command(flatten)]
+    pub(crate) customer: CustomerArgs,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

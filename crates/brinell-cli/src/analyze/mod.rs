@@ -2,6 +2,8 @@
 
 mod args;
 mod columns;
+mod customer;
+mod customer_args;
 mod files;
 mod page;
 mod plots;
@@ -20,7 +22,7 @@ use crate::confined;
 use crate::failure::{ExitCode, Failure};
 use crate::results::SCENARIO;
 use crate::say::complain;
-use brinell_measured::{Request, examine, is_too_short, of_file, together};
+use brinell_measured::{Request, Short, examine, is_too_short, of_file, together};
 use files::{Files, files};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -51,6 +53,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let request = args.request()?;
     request.check()?;
     let found = files(&args.files)?;
+    args.check_report(&found)?;
     if args.trend.trend {
         let (paths, times) = args.trend.dated(found, channels)?;
         return several::analyze(args, &request, &paths, Some(times));
@@ -67,6 +70,10 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
 fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitCode, Failure> {
     let measurement = together(paths, request)?;
     if is_too_short(&measurement, request)? {
+        if args.is_reported() {
+            let Short { why, .. } = Short::of(measurement, request)?;
+            return Err(Failure::Usage(format!("{}: {why} The customer's report takes a verdict", paths[0].display())));
+        }
         // Its levels, as a row.
         return several::analyze(args, request, paths, None);
     }
@@ -77,7 +84,7 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
     let found = examine(measurement, request)?;
     let json = found.to_json(true);
     let mut written = Vec::new();
-    if let Some(folder) = &args.output {
+    if let Some(folder) = args.folder() {
         let page = page::report(&found).into();
         written = put_pages(
             folder,
@@ -90,6 +97,9 @@ fn one(args: &AnalyzeArgs, request: &Request, paths: &[PathBuf]) -> Result<ExitC
         )?;
     }
     put_json(args, &json, &mut written)?;
+    if args.is_reported() {
+        customer::write(args, &paths[0], vec![customer::judged(&found)], &[], &mut written)?;
+    }
     if !args.quiet {
         for warning in &found.warnings {
             complain!("warning: {warning}");

@@ -8,6 +8,17 @@ use brinell_report::{AnalysisReport, Analyzed, Findings, Table};
 const LONGEST_NAME: usize = 24;
 
 pub(super) fn report(found: &brinell_measured::Findings) -> AnalysisReport {
+    let result = found.lead();
+    let mut report = on_page(found, |findings| AnalysisReport::of_findings(&findings));
+    if found.bearings.len() > 1 {
+        report.verdict = format!("{}: {}", result.name, report.verdict);
+        report.tables.insert(0, table(&found.bearings));
+    }
+    report
+}
+
+/// What pages are made of, of the bearing that leads.
+pub(super) fn on_page<T>(found: &brinell_measured::Findings, make: impl FnOnce(Findings) -> T) -> T {
     let (m, result) = (&found.measurement, found.lead());
     // In whole, which the title may have shortened.
     let mut notes: Vec<String> =
@@ -19,7 +30,7 @@ pub(super) fn report(found: &brinell_measured::Findings) -> AnalysisReport {
     }
     let other_name = result.against.as_ref().map(|other| name(&other.measurement));
     let against = result.against.as_ref().zip(other_name.as_deref());
-    let mut report = AnalysisReport::of_findings(&Findings {
+    make(Findings {
         signal: signal(m, &name(m), &result.analysis),
         unit: &m.unit.value,
         verdict: &result.verdict_text(),
@@ -33,12 +44,7 @@ pub(super) fn report(found: &brinell_measured::Findings) -> AnalysisReport {
             let signal = signal(&other.measurement, name, &other.analysis);
             (signal, &other.comparison)
         }),
-    });
-    if found.bearings.len() > 1 {
-        report.verdict = format!("{}: {}", result.name, report.verdict);
-        report.tables.insert(0, table(&found.bearings));
-    }
-    report
+    })
 }
 
 /// The damaged parts in a word or two each, or what is said instead.

@@ -1,6 +1,7 @@
 //! What is kept of each of several files.
 
 use super::args::AnalyzeArgs;
+use super::customer;
 use super::page::called;
 use super::records::Record;
 use crate::failure::Failure;
@@ -9,7 +10,7 @@ use brinell::analysis::{MachineClass, Unit};
 use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator};
 use brinell_measured::{Diagnosis, Findings, Measurement, Short, examine, is_too_short};
-use brinell_report::scaled;
+use brinell_report::{Judged, NotJudged, scaled};
 use serde_json::Value;
 
 /// What is kept of a file.
@@ -51,18 +52,45 @@ pub(super) struct Found {
     /// What contradicts what was given.
     pub(super) warnings: Vec<String>,
     pub(super) json: Value,
+    /// What the customer's report says of it, where that is wanted.
+    pub(super) judged: Option<Box<Judged>>,
 }
 
 pub(super) fn one(args: &AnalyzeArgs, Record { request, path, .. }: &Record) -> Result<Found, Failure> {
     let measurement = Measurement::open(path, request)?;
     let found = match is_too_short(&measurement, request)? {
         true => Found::of_short(Short::of(measurement, request)?),
-        false => Found::of(&examine(measurement, request)?),
+        false => {
+            let findings = examine(measurement, request)?;
+            let judged = args.is_reported().then(|| Box::new(customer::judged(&findings)));
+            Found { judged, ..Found::of(&findings) }
+        }
     };
     if !args.quiet {
         found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));
     }
     Ok(found)
+}
+
+/// What the customer's report says of each signal, and those of which it says nothing.
+///
+/// # Errors
+/// Where no signal has a verdict.
+pub(super) fn judged(rows: &[Row]) -> Result<(Vec<Judged>, Vec<NotJudged>), Failure> {
+    let (mut signals, mut without) = (Vec::new(), Vec::new());
+    for Row { name, found } in rows {
+        match found {
+            Ok(Found { judged: Some(judged), .. }) => signals.push((**judged).clone()),
+            Ok(found) => without.push((name.clone(), found.sentences.join(" "))),
+            Err(why) => without.push((name.clone(), why.clone())),
+        }
+    }
+    match (&signals[..], &without[..]) {
+        ([], [(name, why), ..]) => {
+            Err(Failure::Usage(format!("{name}: {why} The customer's report takes a verdict on one channel at least")))
+        }
+        _ => Ok((signals, without)),
+    }
 }
 
 impl Found {
@@ -89,6 +117,7 @@ impl Found {
             other: None,
             rms_over_other: None,
             warnings: short.warnings,
+            judged: None,
         }
     }
 
@@ -144,6 +173,7 @@ impl Found {
             warnings: found.warnings.clone(),
             // The version is above all records.
             json: found.to_json(false),
+            judged: None,
         }
     }
 

@@ -2,9 +2,10 @@
 
 use super::args::AnalyzeArgs;
 use super::columns::{COLUMNS, in_columns};
+use super::customer;
 use super::plots::plots;
 use super::records::records;
-use super::rows::{Row, one};
+use super::rows::{Row, judged, one};
 use super::trend;
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::{ExitCode, Failure};
@@ -90,7 +91,11 @@ pub(super) fn analyze(
         Trend::of(times, &names, &records, &args.trend.limit)
     });
     let trend = trend.transpose()?;
-    let written = write(args, &rows, records, trend.as_ref(), &earlier)?;
+    let reported = if args.is_reported() { Some(judged(&rows)?) } else { None };
+    let mut written = write(args, &rows, records, trend.as_ref(), &earlier)?;
+    if let Some((signals, without)) = reported {
+        customer::write(args, &files[0], signals, &without, &mut written)?;
+    }
     if let Some(trend) = trend.as_ref().filter(|_| !args.quiet) {
         trend.warnings.iter().for_each(|warning| complain!("warning: {warning}"));
     }
@@ -160,7 +165,7 @@ fn write(
         json["leading"] = words.into();
     }
     let mut written = Vec::new();
-    if let Some(folder) = &args.output {
+    if let Some(folder) = args.folder() {
         let report = report(args, rows, trend);
         let table = |trend: &Trend| (trend::TABLE, trend.to_csv());
         written = put_pages(

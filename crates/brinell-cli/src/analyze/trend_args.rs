@@ -14,8 +14,8 @@ pub(crate) struct TrendArgs {
     #[arg(long, conflicts_with = "together")]
     pub(crate) trend: bool,
     /// When a record was taken: a date as 2024-02-12T10:32:39, or a number with --date-unit; repeat it, one for each file in their order, or give a
-    /// table with the columns file,date [default: from the names of files, or of their folders]
-    #[arg(long, value_name = "DATE|LIST.csv", requires = "trend", allow_negative_numbers = true)]
+    /// table with the columns file,date; the customer's report takes one date [default: from the names of files, or of their folders]
+    #[arg(long, value_name = "DATE|LIST.csv", allow_negative_numbers = true)]
     pub(crate) date: Vec<String>,
     /// Unit of times that are numbers, in --date or in the names of files
     #[arg(long, value_name = "UNIT", requires = "trend", value_parser = time_unit())]

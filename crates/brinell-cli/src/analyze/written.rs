@@ -33,7 +33,8 @@ pub(super) fn earlier(
         }
         _ => {}
     }
-    let Some(folder) = &args.output else {
+    args.spare_report(&inputs)?;
+    let Some(folder) = args.folder() else {
         return Ok(Earlier::default());
     };
     Results::ANALYSIS.earlier(folder, &inputs, args.overwrite, same)

@@ -246,7 +246,7 @@ fn families(a: &Analysis) -> Table {
     )
 }
 
-fn with_interval(e: &Estimate) -> String {
+pub(crate) fn with_interval(e: &Estimate) -> String {
     match e.interval {
         Some(i) => format!("{} to {}", short(i.low, 4), short(i.high, 4)),
         None => "–".into(),

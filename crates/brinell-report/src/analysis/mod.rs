@@ -11,8 +11,11 @@ use crate::data::{Marker, Series, Spectrum, Tone};
 use crate::fact::Fact;
 use crate::kurtogram::Kurtogram;
 use crate::tables::Table;
+pub(crate) use content::with_interval;
 pub use content::{Analyzed, Findings};
 pub use level::{ZONES, level_lines, scaled};
+pub(crate) use page::envelope_of_size;
+pub(crate) use waveform::close_of_size;
 pub use words::{called, orders_in_hz, ratio};
 
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.

@@ -47,7 +47,10 @@ fn spectrum(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
 }
 
 fn envelope(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
-    let size = layout.size(if layout.roomy() { 400.0 } else { 360.0 });
+    envelope_of_size(report, layout.size(if layout.roomy() { 400.0 } else { 360.0 }))
+}
+
+pub(crate) fn envelope_of_size(report: &AnalysisReport, size: Size) -> Plot<'_> {
     let y = Domain::from_zero(amplitudes(&report.envelopes, 3));
     let names = ("envelope-spectrum", "envelope");
     let mut plot = lines(report, &report.envelopes, names, size, y, marker_lanes(&report.markers));

@@ -37,8 +37,12 @@ pub(super) fn whole(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
     plot(report, spec(report, ("waveform", layout.size(200.0)), x, unit, y), "", curves.collect(), false)
 }
 
-/// About the middle, with no more samples of each waveform than the page keeps as they are.
 pub(super) fn close(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
+    close_of_size(report, layout.size(300.0))
+}
+
+/// About the middle, with no more samples of each waveform than the page keeps as they are.
+pub(crate) fn close_of_size(report: &AnalysisReport, size: Size) -> Plot<'_> {
     let (from, to, reach) = close_up(report);
     let (unit, scale) = time_unit(to - from);
     let x = Domain::exact(from * scale, to * scale);
@@ -52,6 +56,6 @@ pub(super) fn close(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
         let first = bin(s, middle - reach) as f64 * s.dt_s * scale;
         (first, s.dt_s * scale, &s.values[shown(s, middle - reach, middle + reach)])
     });
-    let spec = spec(report, ("close-up", layout.size(300.0)), x, unit, y);
+    let spec = spec(report, ("close-up", size), x, unit, y);
     Plot { called: ["", "Signal"], ..plot(report, spec, "close-up", curves.collect(), false) }
 }

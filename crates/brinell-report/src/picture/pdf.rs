@@ -1,4 +1,4 @@
-//! A picture as a PDF of one page: vectors, with the typeface inside it.
+//! Pictures as a PDF, a page each: vectors, with the typeface inside it.
 
 use std::collections::BTreeMap;
 
@@ -18,62 +18,54 @@ const EFFORT: u8 = 6;
 const ROUND: f64 = 0.552_284_75;
 const REGISTRY: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
-/// The page's objects come first; each font, state and image takes what it needs after them.
+/// Three objects come first; each page, font, state and image takes what it needs after them.
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
-const PAGE: Ref = Ref::new(3);
-const CONTENT: Ref = Ref::new(4);
-const INFO: Ref = Ref::new(5);
-const FIRST_FREE: i32 = 6;
+const INFO: Ref = Ref::new(3);
+const FIRST_FREE: i32 = 4;
+
+/// What a PDF says of itself.
+pub(crate) struct Info<'a> {
+    pub(crate) title: &'a str,
+    /// Who wrote it; may be empty.
+    pub(crate) author: &'a str,
+    /// The command that made it; may be empty.
+    pub(crate) creator: &'a str,
+}
 
 impl Picture {
     /// A PDF file of one page, as large as the picture; text stays text.
     pub fn pdf(&self) -> Vec<u8> {
-        let scale = self.mm_per_px() * PT_PER_MM;
-        let (width, height) = ((scale * self.width) as f32, (scale * self.height) as f32);
-        let mut page = Page { content: Content::new(), glyphs: Default::default(), images: vec![], opacities: vec![] };
-        page.content
-            // From pixels, y down, to points, y up.
-            .transform([scale as f32, 0.0, 0.0, -scale as f32, 0.0, height])
-            .set_line_join(LineJoinStyle::RoundJoin);
-        for shape in &self.shapes {
-            page.draw(shape);
-        }
-        let mut pdf = Pdf::new();
-        pdf.catalog(CATALOG).pages(PAGES);
-        pdf.pages(PAGES).kids([PAGE]).count(1);
-        pdf.document_info(INFO).title(TextStr(&self.title)).producer(TextStr("brinell"));
-        let mut free = Free(FIRST_FREE);
-        let fonts = page.write_fonts(&mut pdf, &mut free);
-        let images = page.write_images(&mut pdf, &mut free);
-        let content = compress_to_vec_zlib(&page.content.finish(), EFFORT);
-        pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
-        let mut leaf = pdf.page(PAGE);
-        leaf.parent(PAGES).contents(CONTENT);
-        leaf.media_box(Box::new(0.0, 0.0, width, height));
-        let mut resources = leaf.resources();
-        let mut named = resources.fonts();
-        for (name, id) in &fonts {
-            named.pair(Name(name.as_bytes()), *id);
-        }
-        named.finish();
-        let mut named = resources.x_objects();
-        for (k, id) in images.iter().enumerate() {
-            named.pair(Name(format!("I{k}").as_bytes()), *id);
-        }
-        named.finish();
-        let mut named = resources.ext_g_states();
-        for (k, percent) in page.opacities.iter().enumerate() {
-            let part = f32::from(*percent) / 100.0;
-            let mut state =
-                named.insert(Name(format!("G{k}").as_bytes())).start::<pdf_writer::writers::ExtGraphicsState>();
-            state.stroking_alpha(part).non_stroking_alpha(part);
-        }
-        named.finish();
-        resources.finish();
-        leaf.finish();
-        pdf.finish()
+        pdf(std::slice::from_ref(self), &Info { title: &self.title, author: "", creator: "" })
     }
+}
+
+/// A PDF file of a page a picture, each as large as that; text stays text.
+pub(crate) fn pdf(pictures: &[Picture], info: &Info) -> Vec<u8> {
+    let mut pdf = Pdf::new();
+    let mut free = Free(FIRST_FREE);
+    let pages: Vec<[Ref; 2]> = pictures.iter().map(|_| [free.take(), free.take()]).collect();
+    let mut catalog = pdf.catalog(CATALOG);
+    catalog.pages(PAGES).lang(TextStr("en"));
+    catalog.viewer_preferences().display_doc_title(true);
+    catalog.finish();
+    pdf.pages(PAGES).kids(pages.iter().map(|[page, _]| *page)).count(pages.len() as i32);
+    let mut about = pdf.document_info(INFO);
+    about.title(TextStr(info.title)).producer(TextStr("brinell"));
+    if !info.author.is_empty() {
+        about.author(TextStr(info.author));
+    }
+    if !info.creator.is_empty() {
+        about.creator(TextStr(info.creator));
+    }
+    about.finish();
+    let mut glyphs = Default::default();
+    let drawn: Vec<Page> = pictures.iter().map(|picture| Page::of(picture, &mut glyphs)).collect();
+    let fonts = write_fonts(&glyphs, &mut pdf, &mut free);
+    for (page, ids) in drawn.into_iter().zip(pages) {
+        page.write(ids, &fonts, &mut pdf, &mut free);
+    }
+    pdf.finish()
 }
 
 /// Numbers of objects.
@@ -86,11 +78,14 @@ impl Free {
     }
 }
 
-/// The page as it is drawn, and what it refers to.
+/// Glyphs that are shown of the regular and of the semi-bold face, by their numbers.
+type Glyphs = [BTreeMap<u16, Glyph>; 2];
+
+/// A page as it is drawn, and what it refers to.
 struct Page<'a> {
     content: Content,
-    /// Glyphs that are shown of the regular and of the semi-bold face, by their numbers.
-    glyphs: [BTreeMap<u16, Glyph>; 2],
+    /// Points.
+    size: [f32; 2],
     /// Columns and pixels of the images.
     images: Vec<(usize, &'a [[u8; 3]])>,
     /// In percent.
@@ -98,7 +93,51 @@ struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    fn draw(&mut self, shape: &'a Shape) {
+    fn of(picture: &'a Picture, glyphs: &mut Glyphs) -> Self {
+        let scale = picture.mm_per_px() * PT_PER_MM;
+        let size = [picture.width, picture.height].map(|length| (scale * length) as f32);
+        let mut page = Self { content: Content::new(), size, images: vec![], opacities: vec![] };
+        page.content
+            // From pixels, y down, to points, y up.
+            .transform([scale as f32, 0.0, 0.0, -scale as f32, 0.0, size[1]])
+            .set_line_join(LineJoinStyle::RoundJoin);
+        for shape in &picture.shapes {
+            page.draw(shape, glyphs);
+        }
+        page
+    }
+
+    fn write(self, [id, content_id]: [Ref; 2], fonts: &[(&str, Ref)], pdf: &mut Pdf, free: &mut Free) {
+        let images = self.write_images(pdf, free);
+        let content = compress_to_vec_zlib(&self.content.finish(), EFFORT);
+        pdf.stream(content_id, &content).filter(Filter::FlateDecode);
+        let mut leaf = pdf.page(id);
+        leaf.parent(PAGES).contents(content_id);
+        leaf.media_box(Box::new(0.0, 0.0, self.size[0], self.size[1]));
+        let mut resources = leaf.resources();
+        let mut named = resources.fonts();
+        for (name, id) in fonts {
+            named.pair(Name(name.as_bytes()), *id);
+        }
+        named.finish();
+        let mut named = resources.x_objects();
+        for (k, id) in images.iter().enumerate() {
+            named.pair(Name(format!("I{k}").as_bytes()), *id);
+        }
+        named.finish();
+        let mut named = resources.ext_g_states();
+        for (k, percent) in self.opacities.iter().enumerate() {
+            let part = f32::from(*percent) / 100.0;
+            let mut state =
+                named.insert(Name(format!("G{k}").as_bytes())).start::<pdf_writer::writers::ExtGraphicsState>();
+            state.stroking_alpha(part).non_stroking_alpha(part);
+        }
+        named.finish();
+        resources.finish();
+        leaf.finish();
+    }
+
+    fn draw(&mut self, shape: &'a Shape, glyphs: &mut Glyphs) {
         match shape {
             Shape::Path { lines, close, paint, clip } => {
                 self.painted(paint, *clip, |content| trace(content, lines, *close))
@@ -106,9 +145,9 @@ impl<'a> Page<'a> {
             Shape::Circle { x, y, r, paint } => {
                 self.painted(paint, None, |content| circle(content, [*x, *y, *r]));
             }
-            Shape::Text(text) => self.text(text),
+            Shape::Text(text) => self.text(text, glyphs),
             Shape::Image { place, columns, pixels } => self.image(*place, *columns, pixels),
-            Shape::Open(_) | Shape::Close => {}
+            Shape::Open(_) | Shape::Figure(_) | Shape::Close => {}
         }
     }
 
@@ -155,7 +194,7 @@ impl<'a> Page<'a> {
         }
     }
 
-    fn text(&mut self, text: &Text) {
+    fn text(&mut self, text: &Text, glyphs: &mut Glyphs) {
         let [r, g, b] = rgb(text.color).map(|part| f32::from(part) / 255.0);
         self.content.begin_text().set_fill_rgb(r, g, b);
         let mut pen = text.start();
@@ -169,7 +208,7 @@ impl<'a> Page<'a> {
             let mut shown = Vec::with_capacity(2 * run.text.len());
             for glyph in font::glyphs(&run.text, text.bold) {
                 shown.extend(glyph.id.to_be_bytes());
-                self.glyphs[usize::from(text.bold)].insert(glyph.id, glyph);
+                glyphs[usize::from(text.bold)].insert(glyph.id, glyph);
             }
             self.content
                 .set_font(Name(NAMES[usize::from(text.bold)].as_bytes()), size as f32)
@@ -194,56 +233,6 @@ impl<'a> Page<'a> {
         self.images.push((columns, pixels));
     }
 
-    /// The faces that are used, as names of the page and objects.
-    fn write_fonts(&self, pdf: &mut Pdf, free: &mut Free) -> Vec<(&'static str, Ref)> {
-        let mut written = vec![];
-        for (k, glyphs) in self.glyphs.iter().enumerate() {
-            let Some(program) = font::program(k == 1).filter(|_| !glyphs.is_empty()) else {
-                continue;
-            };
-            let [id, cid, descriptor, file, cmap] = std::array::from_fn(|_| free.take());
-            let name = Name(program.name.as_bytes());
-            pdf.type0_font(id)
-                .base_font(Name(format!("{}-Identity-H", program.name).as_bytes()))
-                .encoding_predefined(Name(b"Identity-H"))
-                .descendant_font(cid)
-                .to_unicode(cmap);
-            let mut face = pdf.cid_font(cid);
-            face.subtype(CidFontType::Type0)
-                .base_font(name)
-                .system_info(REGISTRY)
-                .font_descriptor(descriptor)
-                .default_width(0.0);
-            let mut widths = face.widths();
-            for (id, glyph) in glyphs {
-                widths.consecutive(*id, [glyph.advance as f32]);
-            }
-            widths.finish();
-            face.finish();
-            let [low, high] = [program.descent, program.ascent].map(|v| v as f32);
-            let [x0, y0, x1, y1] = program.bounds.map(|v| v as f32);
-            pdf.font_descriptor(descriptor)
-                .name(name)
-                .flags(FontFlags::SYMBOLIC)
-                .bbox(Box::new(x0, y0, x1, y1))
-                .italic_angle(0.0)
-                .ascent(high)
-                .descent(low)
-                .cap_height(program.cap_height as f32)
-                .stem_v(if k == 1 { 120.0 } else { 80.0 })
-                .font_file3(file);
-            let bytes = compress_to_vec_zlib(program.cff, EFFORT);
-            pdf.stream(file, &bytes).filter(Filter::FlateDecode).pair(Name(b"Subtype"), Name(b"CIDFontType0C"));
-            let mut unicode = UnicodeCmap::new(Name(b"Custom"), REGISTRY);
-            for (id, glyph) in glyphs {
-                unicode.pair(*id, glyph.character);
-            }
-            pdf.cmap(cmap, &unicode.finish());
-            written.push((NAMES[k], id));
-        }
-        written
-    }
-
     fn write_images(&self, pdf: &mut Pdf, free: &mut Free) -> Vec<Ref> {
         let mut written = vec![];
         for (columns, pixels) in &self.images {
@@ -261,7 +250,57 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Of the regular and the semi-bold face, in the page's content.
+/// The faces that are used, as names in the pages and objects.
+fn write_fonts(glyphs: &Glyphs, pdf: &mut Pdf, free: &mut Free) -> Vec<(&'static str, Ref)> {
+    let mut written = vec![];
+    for (k, glyphs) in glyphs.iter().enumerate() {
+        let Some(program) = font::program(k == 1).filter(|_| !glyphs.is_empty()) else {
+            continue;
+        };
+        let [id, cid, descriptor, file, cmap] = std::array::from_fn(|_| free.take());
+        let name = Name(program.name.as_bytes());
+        pdf.type0_font(id)
+            .base_font(Name(format!("{}-Identity-H", program.name).as_bytes()))
+            .encoding_predefined(Name(b"Identity-H"))
+            .descendant_font(cid)
+            .to_unicode(cmap);
+        let mut face = pdf.cid_font(cid);
+        face.subtype(CidFontType::Type0)
+            .base_font(name)
+            .system_info(REGISTRY)
+            .font_descriptor(descriptor)
+            .default_width(0.0);
+        let mut widths = face.widths();
+        for (id, glyph) in glyphs {
+            widths.consecutive(*id, [glyph.advance as f32]);
+        }
+        widths.finish();
+        face.finish();
+        let [low, high] = [program.descent, program.ascent].map(|v| v as f32);
+        let [x0, y0, x1, y1] = program.bounds.map(|v| v as f32);
+        pdf.font_descriptor(descriptor)
+            .name(name)
+            .flags(FontFlags::SYMBOLIC)
+            .bbox(Box::new(x0, y0, x1, y1))
+            .italic_angle(0.0)
+            .ascent(high)
+            .descent(low)
+            .cap_height(program.cap_height as f32)
+            .stem_v(if k == 1 { 120.0 } else { 80.0 })
+            .font_file3(file);
+        let bytes = compress_to_vec_zlib(program.cff, EFFORT);
+        pdf.stream(file, &bytes).filter(Filter::FlateDecode).pair(Name(b"Subtype"), Name(b"CIDFontType0C"));
+        let mut unicode = UnicodeCmap::new(Name(b"Custom"), REGISTRY);
+        for (id, glyph) in glyphs {
+            unicode.pair(*id, glyph.character);
+        }
+        pdf.cmap(cmap, &unicode.finish());
+        written.push((NAMES[k], id));
+    }
+    written
+}
+
+/// Of the regular and the semi-bold face, in the pages' content.
 const NAMES: [&str; 2] = ["F0", "F1"];
 
 fn trace(content: &mut Content, lines: &[Vec<(f64, f64)>], close: bool) {

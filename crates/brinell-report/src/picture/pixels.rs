@@ -57,7 +57,7 @@ impl Picture {
                 Shape::Image { place, columns, pixels: image } => {
                     raster::draw(&mut pixels, *place, *columns, image, transform)
                 }
-                Shape::Open(_) | Shape::Close => {}
+                Shape::Open(_) | Shape::Figure(_) | Shape::Close => {}
             }
         }
         Ok(pixels)

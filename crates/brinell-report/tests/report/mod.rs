@@ -5,6 +5,6 @@ mod checks;
 mod damage;
 mod page;
 mod pictures;
-mod print;
+pub(crate) mod print;
 mod sample;
 mod sweep;

@@ -49,7 +49,7 @@ fn analytic_svg_is_as_wide_as_asked_with_text_of_seven_to_nine_points() {
 }
 
 /// The streams of a PDF after inflating, each with its dictionary.
-fn streams(pdf: &[u8]) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn streams(pdf: &[u8]) -> Vec<(String, Vec<u8>)> {
     let find = |from: usize, what: &[u8]| {
         let rest = &pdf[from..];
         rest.windows(what.len()).position(|w| w == what).map(|at| from + at)

@@ -1,0 +1,177 @@
+//! What the report says in words: verdict, severity, and what to do next.
+
+use super::{CustomerReport, Judged};
+use brinell::analysis::{Component, Verdict, Zone};
+
+/// Of which a part's damage is a damage: `the outer race`.
+fn part(component: Component) -> &'static str {
+    match component {
+        Component::OuterRace => "the outer race",
+        Component::InnerRace => "the inner race",
+        Component::Element => "a rolling element",
+        // An element that strikes once a turn of the cage looks the same.
+        Component::Cage => "a rolling element or the cage",
+    }
+}
+
+fn parts(judged: &Judged) -> String {
+    let mut names: Vec<&str> = judged.parts.iter().map(|component| part(*component)).collect();
+    names.dedup();
+    names.join(" and ")
+}
+
+/// The verdict in a few words.
+pub(super) fn headline(judged: &Judged) -> String {
+    match judged.verdict {
+        Verdict::Damage if judged.clarity == "weak" => format!("Signs of damage of {}", parts(judged)),
+        Verdict::Damage => {
+            let are = if judged.parts.len() > 1 { "are" } else { "is" };
+            crate::number::capital(&format!("{} {are} damaged", parts(judged)))
+        }
+        Verdict::CannotTell => "Cannot tell".into(),
+        Verdict::NothingFound => "No damage found".into(),
+    }
+}
+
+/// How often the damage of a part strikes.
+pub(super) fn rate(component: Component) -> &'static str {
+    match component {
+        Component::OuterRace => "rolling elements pass one place of the outer race",
+        Component::InnerRace => "rolling elements pass one place of the inner race",
+        Component::Element => "one rolling element strikes the races",
+        Component::Cage => "the cage turns",
+    }
+}
+
+/// How sure the verdict is.
+pub(super) fn sure(judged: &Judged) -> &'static str {
+    match (judged.verdict, judged.clarity) {
+        (Verdict::Damage, "very clear") => {
+            "very clear, the highest of three grades. Of the measured records that the program was checked on, and its limits were set on, every verdict of this grade was right."
+        }
+        (Verdict::Damage, "clear") => {
+            "clear, the second of three grades: the evidence is that of damage, and something (such as the speed) is not confirmed by the record itself, or it is less strong than in most."
+        }
+        (Verdict::Damage, _) => "weak, the lowest of three grades: something healthy may look the same.",
+        (Verdict::CannotTell, _) => {
+            "open. The record holds too little, or something that this bearing does not explain."
+        }
+        (Verdict::NothingFound, _) => {
+            "this is no proof of a sound bearing. Small damage, poor lubrication or damage far from the sensor may not show; some measured records of damaged bearings look the same."
+        }
+    }
+}
+
+/// How bad it is: a few words, and on what they rest.
+pub(super) fn grade(of: &CustomerReport) -> (&'static str, String) {
+    let damaged = of.lead.verdict == Verdict::Damage;
+    let whole = |zone: Zone| format!("the machine as a whole vibrates in zone {}", zone.name());
+    match (damaged, of.whole.zone) {
+        (true, Some(zone @ Zone::D)) => ("Severe:", format!("{}.", whole(zone))),
+        (true, Some(zone @ Zone::C)) => ("Elevated:", format!("{}.", whole(zone))),
+        (true, Some(zone)) => (
+            "Limited so far:",
+            format!("the bearing shows the damage, the machine as a whole does not (zone {}).", zone.name()),
+        ),
+        (true, None) => ("Not graded:", "the record gives no zone of ISO 20816-3.".into()),
+        (false, Some(zone @ (Zone::C | Zone::D))) => {
+            ("Not by the bearing,", format!("as far as the record shows: {}.", whole(zone)))
+        }
+        (false, Some(zone)) => ("Inconspicuous:", format!("{}, and no damage is shown.", whole(zone))),
+        (false, None) => ("Not graded:", "no damage is shown, and the record gives no zone of ISO 20816-3.".into()),
+    }
+}
+
+/// What the severity cannot say.
+pub(super) fn limits(several: bool) -> &'static str {
+    match several {
+        true => {
+            "Limits: early damage of a bearing hardly shows in the velocity: a low one says little of the bearing. The largest of the channels was taken; the standard means the largest over all places and directions."
+        }
+        false => {
+            "Limits: early damage of a bearing hardly shows in the velocity: a low one says little of the bearing. One place and direction was measured; the standard means the largest over all."
+        }
+    }
+}
+
+/// What to do next.
+pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
+    let mut steps = Vec::new();
+    let high = matches!(of.whole.zone, Some(Zone::C | Zone::D));
+    if of.whole.zone == Some(Zone::D) {
+        steps
+            .push("Zone D: act at once by the plant's own rule for it; vibration of this zone may damage the machine.");
+    }
+    match (of.lead.verdict, of.lead.clarity) {
+        (Verdict::Damage, "weak") => steps.extend([
+            "Do not exchange the bearing on this record alone.",
+            "Measure again soon: longer, nearer to the bearing, at the same speed and load. A record from when the machine was healthy would decide most.",
+            "Measure at shorter intervals until that is settled.",
+        ]),
+        (Verdict::Damage, _) => steps.extend([
+            "Confirm within days: measure again at the same place, speed and load; check noise, temperature and lubricant.",
+            if high {
+                "Order the bearing now and bring its exchange forward: do not wait for the next planned stop without a further look at the machine."
+            } else {
+                "Order the bearing and plan its exchange for the next suitable stop."
+            },
+            "Until then measure at shorter intervals, weekly or closer, and stop if level, noise or temperature rises fast.",
+            "Keep the old bearing and have it looked at: its tracks tell kind and cause of the damage, without which the new one may fail likewise.",
+        ]),
+        (Verdict::CannotTell, _) => steps.extend([
+            "Settle what is open: check the speed (best with a tachometer), the designation of the bearing, and other bearings, gears and couplings nearby.",
+            "Measure again on the bearing's housing: sixty turns of the shaft or more at steady speed, sampled at 10 kHz or more.",
+            "Do not exchange the bearing on this record alone; measure at shorter intervals until it is settled.",
+        ]),
+        (Verdict::NothingFound, _) => {
+            if !high {
+                steps.push("Go on with the usual interval of measurement.");
+            }
+            steps.extend([
+                "Keep this record: beside it, later changes show sooner than by any limit.",
+                "Follow other signs where there are any: noise, heat or metal in the lubricant count for more than this record.",
+            ]);
+        }
+    }
+    if high && of.lead.verdict != Verdict::Damage {
+        steps.push(
+            "Look for the cause of the machine's vibration elsewhere: unbalance, misalignment, looseness, resonance.",
+        );
+    }
+    steps
+}
+
+/// On what that rests.
+pub(super) const BASIS: &str =
+    "By common practice in condition monitoring. No remaining life is given: one record does not tell it.";
+
+/// What kind of damage it is, as far as anybody says.
+pub(super) fn kind(of: &CustomerReport) -> String {
+    match of.heading.kind {
+        Some(kind) => format!("as seen and stated by the author: {}. Vibration tells the part, not the kind.", kind.words()),
+        None => "not stated. Vibration tells the part, not the kind (fatigue, wear, corrosion, current, ...): that takes a look at the bearing, and is named by ISO 15243.".into(),
+    }
+}
+
+/// What a verdict leaves open.
+pub(super) const NOT_SAID: [&str; 4] = [
+    "How long the bearing will last, and what caused the damage.",
+    "Faults of other parts: the frequencies of this bearing alone were looked for. As a rule the stronger of two damaged parts is named.",
+    "Whether speed and bearing were right: if not, every line lies elsewhere. Most such errors are noticed, not all.",
+    "That a bearing without a finding is sound.",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::super::DamageKind;
+
+    #[test]
+    fn lit_kinds_of_iso_15243() {
+        let all: Vec<DamageKind> = DamageKind::all().collect();
+        assert_eq!(all.len(), 14);
+        let named = |name: &str| all.iter().find(|kind| kind.name() == name).unwrap().words();
+        assert_eq!(named("false-brinelling"), "false brinelling (ISO 15243:2017, 5.3.3.3)");
+        assert_eq!(named("overload"), "overload deformation (true brinelling) (ISO 15243:2017, 5.5.2)");
+        assert_eq!(named("current-leakage"), "current leakage erosion (ISO 15243:2017, 5.4.3)");
+    }
+}
