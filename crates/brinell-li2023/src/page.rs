@@ -5,7 +5,7 @@ use crate::curves::Curves;
 use crate::outcome::{self, Outcome, card, counts};
 use crate::reproduction::Reproduction;
 use crate::request::Request;
-use crate::{BASE, Basis, Length};
+use crate::{BASE, Basis, Length, Verdict};
 use crate::{believe, figures, survives};
 use brinell::made_by::MadeBy;
 use brinell::scenario::{Laws, Scenario};
@@ -92,24 +92,24 @@ pub(crate) fn study(
     let mut chapters = match &reproduction.beside {
         Some(all) => survives::chapters(all),
         None => {
-            let cards = reproduction.outcomes.iter().map(card).collect();
-            vec![
-                Chapter::new("believe", "What to believe", "What to believe", believe::pieces(reproduction)),
-                Chapter::new("claims", "Claims", "The paper’s claims", vec![Piece::Claims(cards)]),
-            ]
+            let mut all =
+                vec![Chapter::new("believe", "What to believe", "What to believe", believe::pieces(reproduction))];
+            all.extend(by_verdict(&reproduction.outcomes));
+            all
         }
     };
     let experiments = request.experiments.iter();
-    chapters.extend(experiments.map(|e| figures::chapter(e, request.laws, &reproduction.numbers, &curves, &plan)));
+    chapters
+        .extend(experiments.map(|e| figures::chapter(e, request.laws, &reproduction.numbers, &curves, &plan).folded()));
     if let Some(sensitivity) = &reproduction.sensitivity {
         chapters.extend(sensitivity.chapters());
     }
     chapters.extend(reproduction.models.as_ref().map(|models| models.chapter()));
     let mut rules: Vec<Piece> = rules(request.length, request.laws).into_iter().map(Piece::Words).collect();
     rules.push(Piece::Table(runs(request)));
-    chapters.push(Chapter::new("rules", "Rules", "How verdicts come about", rules));
+    chapters.push(Chapter::new("rules", "Rules", "How verdicts come about", rules).folded());
     let scenario = vec![Piece::Code(BASE.into())];
-    chapters.push(Chapter::new("scenario", "Base scenario", "Base scenario", scenario));
+    chapters.push(Chapter::new("scenario", "Base scenario", "Base scenario", scenario).folded());
     let mut warnings = Vec::new();
     if reproduction.interrupted {
         warnings.push("Interrupted: some runs are missing. The same command resumes.".into());
@@ -134,7 +134,7 @@ pub(crate) fn study(
         ),
         version: MadeBy::now().to_string(),
         warnings,
-        lead: lead(&reproduction.outcomes),
+        lead: lead(request, &reproduction.outcomes),
         facts,
         chapters,
         footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
@@ -152,12 +152,41 @@ fn held(outcomes: &[Outcome]) -> [String; 3] {
     })
 }
 
-fn lead(outcomes: &[Outcome]) -> String {
+/// The finding, and why it is so.
+fn lead(request: &Request, outcomes: &[Outcome]) -> String {
     let [dynamics, shapes, kinematics] = held(outcomes);
-    let rest = outcome::not_counted(outcomes);
+    let of = |verdict| {
+        let mine = outcomes.iter().filter(|o| o.claim.basis == Basis::Dynamics && !o.claim.statements.is_empty());
+        mine.filter(|o| o.judged.verdict == verdict).count()
+    };
+    let quick = match request.length.starts() {
+        1 => " by these short runs (without --quick more is decided)",
+        _ => "",
+    };
     format!(
-        "Dynamic findings that hold: {dynamics}. Beside them hold {shapes} that follow from the shapes that go in, and {kinematics} from kinematics and slip.{rest}"
+        "{dynamics} dynamic claims reproduced: {} do not hold, {} hold in part, {} are not decided{quick}. Why: the paper does not state supports, cage \
+         contact, oil film, load ramp and filter, which decide many of them, and its own sentences contradict each other in places; each claim says what \
+         it hangs on. Apart from these hold {shapes} that follow from the shapes that go in, and {kinematics} from kinematics and slip.{}",
+        of(Verdict::Fails),
+        of(Verdict::Partly),
+        of(Verdict::Undecided),
+        outcome::not_counted(outcomes)
     )
+}
+
+/// The claims, a chapter a verdict; those that find again what goes in are last.
+fn by_verdict(outcomes: &[Outcome]) -> Vec<Chapter> {
+    let chapter = |(id, title, of): (String, String, Vec<&Outcome>)| {
+        let title = format!("{title}: {} claim{}", of.len(), if of.len() == 1 { "" } else { "s" });
+        Chapter::new(&id, &title, &title, vec![Piece::Claims(of.into_iter().map(card).collect())])
+    };
+    let counted = counts(outcomes).into_iter().map(|(verdict, _)| {
+        let of = outcomes.iter().filter(|o| o.claim.counts() && o.judged.verdict == verdict);
+        (format!("claims-{}", verdict.words().replace(' ', "-")), capital(verdict.words()), of.collect())
+    });
+    let trivial: Vec<&Outcome> = outcomes.iter().filter(|o| !o.claim.counts()).collect();
+    let trivial = Some(("claims-trivial".to_owned(), "Find again what goes in".to_owned(), trivial));
+    counted.chain(trivial.filter(|of| !of.2.is_empty())).map(chapter).collect()
 }
 
 /// How many claims came out how.
@@ -178,7 +207,7 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
     let beside = format!(
         "beside them hold {shapes} that follow from the shapes that go in, {kinematics} from kinematics and slip"
     );
-    facts.insert(0, Fact::new("Dynamic findings that hold", dynamics, "", beside));
+    facts.insert(0, Fact::new("Dynamic claims reproduced", dynamics, "", beside));
     facts
 }
 

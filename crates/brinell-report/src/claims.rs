@@ -55,7 +55,7 @@ fn tag(tagged: &Tagged) -> String {
 pub(crate) fn claim(page: &mut String, card: &ClaimCard) {
     let _ = write!(
         page,
-        "<article class=\"claim\">\n<p class=\"place\">{} {}</p>\n<blockquote>{}</blockquote>\n",
+        "<details class=\"claim\">\n<summary><span class=\"place\">{} {}</span>\n<blockquote>{}</blockquote></summary>\n",
         escape(&card.place),
         tag(&card.verdict),
         escape(&card.sentence)
@@ -82,5 +82,5 @@ pub(crate) fn claim(page: &mut String, card: &ClaimCard) {
     if !card.note.is_empty() {
         let _ = writeln!(page, "<p class=\"note\">{}</p>", escape(&card.note));
     }
-    page.push_str("</article>\n");
+    page.push_str("</details>\n");
 }

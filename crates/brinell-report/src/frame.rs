@@ -106,13 +106,20 @@ fn head(page: &mut String, title: &str) {
 }
 
 /// A section with its heading, which may be empty, and what `write` puts under it.
-pub(crate) fn section(page: &mut String, id: &str, title: &str, write: impl FnOnce(&mut String)) {
+pub(crate) fn section(page: &mut String, id: &str, title: &str, write: &mut dyn FnMut(&mut String)) {
     let _ = writeln!(page, "<section id=\"{id}\">");
     if !title.is_empty() {
         let _ = writeln!(page, "<h2>{}</h2>", escape(title));
     }
     write(page);
     page.push_str("</section>\n");
+}
+
+/// The same, which its heading opens.
+pub(crate) fn folded(page: &mut String, id: &str, title: &str, write: &mut dyn FnMut(&mut String)) {
+    let _ = writeln!(page, "<section id=\"{id}\">\n<details><summary><h2>{}</h2></summary>", escape(title));
+    write(page);
+    page.push_str("</details>\n</section>\n");
 }
 
 /// Text as written in a file.

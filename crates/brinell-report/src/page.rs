@@ -9,7 +9,7 @@ use crate::damage::{DamageView, damage_plan};
 use crate::data::Tone;
 use crate::embedded::Plot;
 use crate::fact::Fact;
-use crate::frame::{alert, close, code, contents, figure, lead, none, open, section, unit_html};
+use crate::frame::{alert, close, code, contents, figure, folded, lead, none, open, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::escape;
 use crate::misfit::{Tried, course_plot, embed_course, embed_key, key_plot};
@@ -177,12 +177,20 @@ pub struct Chapter {
     pub title: String,
     /// In this order.
     pub pieces: Vec<Piece>,
+    /// Whether a reader opens it first.
+    pub folded: bool,
 }
 
 impl Chapter {
     /// With its pieces.
     pub fn new(id: &str, short: &str, title: &str, pieces: Vec<Piece>) -> Self {
-        Self { id: id.into(), short: short.into(), title: title.into(), pieces }
+        Self { id: id.into(), short: short.into(), title: title.into(), pieces, folded: false }
+    }
+
+    /// The same, under a heading that opens it.
+    #[must_use]
+    pub fn folded(self) -> Self {
+        Self { folded: true, ..self }
     }
 
     /// A table and no more, under its own heading.
@@ -267,7 +275,8 @@ pub fn html(page: &Page) -> String {
     facts(&mut html, &page.facts);
     let mut count = 0;
     for chapter in shown() {
-        section(&mut html, &chapter.id, &chapter.title, |html| {
+        let write = if chapter.folded { folded } else { section };
+        write(&mut html, &chapter.id, &chapter.title, &mut |html| {
             for piece in &chapter.pieces {
                 count += 1;
                 write_piece(html, piece, count);

@@ -1,5 +1,6 @@
 //! Records of one machine over time: when each was taken, its levels, what changed, and limits.
 
+mod dates;
 mod found;
 mod json;
 mod level;

@@ -22,6 +22,10 @@
   });
   reach();
   addEventListener("resize", reach);
+  // A link to what is folded opens it.
+  const open = () => { const at = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1))); const folded = at && at.querySelector(":scope > details"); if (folded) folded.open = true; };
+  open();
+  addEventListener("hashchange", open);
   // Paper unfolds nothing.
   let opened = [];
   addEventListener("beforeprint", () => { opened = [...document.querySelectorAll("details:not([open])")]; opened.forEach((one) => { one.open = true; }); });

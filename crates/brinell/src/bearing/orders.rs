@@ -68,8 +68,7 @@ impl KnownBearing {
 
     /// The bearing of this name.
     pub fn find(name: &str) -> Option<Self> {
-        // A data set's own bearing before one of the catalogue that has but the same size: 6205-2RS.
-        let catalogued = |found: fn(&str) -> Option<&'static Entry>| found(name).map(Self::Catalogue);
+        // One size, one bearing: makers and seals do not change its frequencies, so 6205, SKF 6205 and 6205-2RS are the catalogue's.
         let named = || NamedBearing::find(name).map(Self::DataSet);
         let of_base = || {
             let known = |base: String| match NAMED.iter().find(|b| bases(b.name).contains(&base)) {
@@ -78,7 +77,7 @@ impl KnownBearing {
             };
             bases(name).into_iter().find_map(known)
         };
-        catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find)).or_else(of_base)
+        catalogue::find(name).map(Self::Catalogue).or_else(named).or_else(of_base)
     }
 
     /// The bearing of this name, or why there is none.

@@ -12,11 +12,14 @@ pub struct StaticRating {
     pub source: Option<&'static str>,
 }
 
-/// C0 of a bearing: the catalogue's where the bearing is a preset with its rollers as they are, else ISO 76's formula
+/// C0 of a bearing: that which is given, the catalogue's where the bearing is a preset with its rollers as they are, else ISO 76's formula
 /// for cylindrical rollers, C0 = 44 (1 - d/D_m) i Z L d in N and mm, or for deep-groove ball bearings, C0 = f0 i Z d^2.
 /// A maker's rating may differ from that by his own factors.
 pub fn static_rating(bearing: &Bearing) -> StaticRating {
     let b = bearing;
+    if let Some(load) = b.static_load_rating_n {
+        return StaticRating { load, source: Some("as given") };
+    }
     let catalogued = b.preset.as_deref().and_then(catalogue::find);
     let same = |entry: &&catalogue::Entry| {
         [
@@ -37,10 +40,21 @@ pub fn static_rating(bearing: &Bearing) -> StaticRating {
     }
     let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
     let load = match b.element {
-        Element::Roller => 44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d,
+        Element::Roller => rating_of_length(b) * b.roller_length_mm,
         Element::Ball => ball_factor(d / b.pitch_diameter_mm) * rollers * d * d,
     };
     StaticRating { load, source: None }
+}
+
+/// C0 of each mm of its rollers' length, N, by ISO 76.
+fn rating_of_length(b: &Bearing) -> f64 {
+    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
+    44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * d
+}
+
+/// The length of rollers with which C0 is this by ISO 76, mm.
+pub(crate) fn roller_length_mm(b: &Bearing, c0: f64) -> f64 {
+    c0 / rating_of_length(b)
 }
 
 /// f0 of ISO 76, table 1, for radial contact ball bearings by d/D_m, straight between its lines: grooves of 0.52 inside
@@ -98,5 +112,37 @@ mod tests {
         let by_hand = 44.0 * (1.0 - 9.0 / 46.5) * 12.0 * 8.8 * 9.0;
         assert_eq!(estimate.source, None);
         assert!((estimate.load / by_hand - 1.0).abs() < 1e-12);
+    }
+
+    /// NU 204 ECP: F = 26.5 mm, E of the N 204 41.5 mm, C0 = 22 kN of SKF's sheet; 11 rollers.
+    #[test]
+    fn analytic_what_a_sheet_prints_gives_the_rollers() {
+        let sheet = "[bearing]\ninner_raceway_diameter_mm = 26.5\nouter_raceway_diameter_mm = 41.5\nrollers_per_row = 11\n\
+                     static_load_rating_n = 22000.0\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n";
+        let read_one = |text: &str| read(text, &[]).unwrap();
+        let loaded = read_one(sheet);
+        let b = &loaded.scenario.bearing;
+        assert!((b.roller_diameter_mm - 7.5).abs() < 1e-12);
+        assert!((44.0 * (1.0 - 7.5 / 34.0) * 11.0 * b.roller_length_mm * 7.5 - 22e3).abs() < 1e-8);
+        assert_eq!(static_rating(b).load, 22e3);
+        for key in ["bearing.roller_diameter_mm", "bearing.roller_length_mm"] {
+            assert!(loaded.provenance.iter().any(|p| p.key == key && p.assumed), "{key}");
+        }
+        // What is given outranks it, and the written form says the same again.
+        assert_eq!(
+            read_one(&sheet.replace("[operation]", "roller_length_mm = 7.0\n[operation]"))
+                .scenario
+                .bearing
+                .roller_length_mm,
+            7.0
+        );
+        assert_eq!(read_one(&loaded.to_toml()).scenario, loaded.scenario);
+        // Of a preset its own length, with the rating that is given.
+        let preset = "[bearing]\npreset = \"NU206\"\nstatic_load_rating_n = 5e4\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n";
+        let known = read_one(preset).scenario.bearing;
+        assert_eq!((known.roller_length_mm, static_rating(&known).load), (8.8, 5e4));
+        // Without it the length is asked for.
+        let missing = read(&sheet.replace("static_load_rating_n = 22000.0\n", ""), &[]).unwrap_err();
+        assert!(missing.iter().any(|problem| problem.to_string().contains("bearing.roller_length_mm")), "{missing:?}");
     }
 }

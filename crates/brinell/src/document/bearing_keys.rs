@@ -7,6 +7,7 @@ use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::spec::{Spec, key};
 use crate::bearing::USUAL_CONFORMITY;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
+use crate::bearing::rating::roller_length_mm;
 use crate::scenario::*;
 use crate::steel::DENSITY;
 
@@ -38,19 +39,42 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
         derived(mean, "mean of the raceway diameters"),
         &mut b.pitch_diameter_mm,
     );
-    k.key(key("roller_diameter_mm", "d").above(0.0), Catalogued, &mut b.roller_diameter_mm);
+    // Where a sheet prints the raceways alone, F and E of a cylindrical roller bearing.
+    let between = 0.5 * (b.outer_raceway_diameter_mm - b.inner_raceway_diameter_mm);
+    k.key(
+        key("roller_diameter_mm", "d").above(0.0),
+        if between > 0.0 && b.inner_raceway_diameter_mm > 0.0 {
+            derived(between, "half of what the raceway diameters differ by")
+        } else {
+            Catalogued
+        },
+        &mut b.roller_diameter_mm,
+    );
+    k.key(key("rollers_per_row", "Z").from(3.0).to(1000.0), Catalogued, &mut b.rollers_per_row);
+    k.key(key("rows", "N_r").from(1.0).to(100.0), assumed(1, "a single row"), &mut b.rows);
+    k.optional(
+        key(
+            "static_load_rating_n",
+            "C0, as a maker prints it; gives roller_length_mm by ISO 76 where that is left out",
+        )
+        .above(0.0),
+        &mut b.static_load_rating_n,
+    );
     k.key_where(
         key("roller_length_mm", "L, effective contact length").plausible_times(0.9, 1.1).above(0.0),
         (!b.has_balls(), ROLLERS),
-        Catalogued,
+        match b.static_load_rating_n.map(|c0| roller_length_mm(b, c0)) {
+            Some(length) if length.is_finite() => {
+                derived(length, "from static_load_rating_n by ISO 76: C0 = 44 (1 - d / D_m) i Z L d")
+            }
+            _ => Catalogued,
+        },
         &mut b.roller_length_mm,
     );
     if b.has_balls() {
         b.roller_length_mm = b.roller_diameter_mm;
     }
     grooves(k, b);
-    k.key(key("rollers_per_row", "Z").from(3.0).to(1000.0), Catalogued, &mut b.rollers_per_row);
-    k.key(key("rows", "N_r").from(1.0).to(100.0), assumed(1, "a single row"), &mut b.rows);
     let stagger = key("row_stagger_deg", "row i starts (i - 1) times this later");
     let stagger_default = if b.rows == 1 {
         stated(0.0, "a single row")

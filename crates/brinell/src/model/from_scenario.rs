@@ -233,6 +233,7 @@ impl Geometry {
             outer_raceway_diameter_mm,
             pitch_diameter_mm,
             roller_diameter_mm,
+            static_load_rating_n: _, // the reader's, and ratings
             roller_length_mm,
             inner_groove_conformity: _, // ball::ellipses
             outer_groove_conformity: _,

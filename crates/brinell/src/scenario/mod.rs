@@ -133,6 +133,8 @@ sections! {
         pub pitch_diameter_mm: f64,
         /// d, mm.
         pub roller_diameter_mm: f64,
+        /// C0, N, where a file gives it; else the catalogue's or an estimate counts.
+        pub static_load_rating_n: Option<f64>,
         /// L, effective contact length, mm. A ball has none, no key for it either, and its diameter here.
         pub roller_length_mm: f64,
         /// Radius of the inner groove's cross-section over the ball's diameter; `None` for rollers.

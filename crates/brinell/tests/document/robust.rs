@@ -287,6 +287,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 outer_raceway_diameter_mm: 8.0 * d,
                 pitch_diameter_mm: 7.0 * d,
                 roller_diameter_mm: d,
+                static_load_rating_n: (words.0 == 1).then_some(1e3 * (1.0 + x[8])),
                 roller_length_mm: if balls(words) { d } else { d * 1.1 },
                 rollers_per_row: z,
                 rows,
