@@ -227,19 +227,55 @@ mod tests {
         with.snapshots[2].size = Some(Ok([2.5, 3.1, 3.6]));
         let without = history;
         let lines = size(&with).lines;
-        assert_eq!(lines[1].points[0].interval, Some((2.5, 3.6)));
+        // Nothing is joined over a snapshot that tells no length, and points are at their times.
+        assert!(lines[1].points[0].value.is_nan() && lines[1].points[1].interval == Some((2.5, 3.6)));
+        assert_eq!((lines[1].points[0].x, lines[1].points[1].x), (10.0, 20.0));
+        assert!(size(&with).in_place);
         assert_eq!(size(&without).lines.len(), 1);
         let page = html(&Page::of_history(with));
         for part in [
             "a &lt;b&gt;: machine 0",
             "95 % interval",
-            "The length is told in 1 of 2 snapshots with damage; 1 of these intervals hold the true length; not told: 1 times no second event.",
+            "Length: told in 1 of 2 snapshots with damage; 1 of these intervals hold the true length; not told: 1 time no second event. On 400 other signals",
+            "on the raceway unrolled",
             "Damage over life",
             "3 damaged",
             "No snapshot has a signal",
         ] {
             assert!(page.contains(part), "{part}");
         }
-        assert!(!html(&Page::of_history(without)).contains("told by the signal"));
+        assert!(!html(&Page::of_history(without.clone())).contains("told by the signal"));
+        let roller = HistorySheet { on: "roller".into(), ..without };
+        assert!(html(&Page::of_history(roller)).contains("on the rolling element's surface unrolled"));
+    }
+
+    #[test]
+    fn regress_a_healthy_machine_shows_its_false_alarms_and_no_envelope_of_damage() {
+        let snapshot = |time_h: f64, size| SheetSnapshot {
+            time_h,
+            state: "healthy".into(),
+            size: Some(size),
+            ..SheetSnapshot::default()
+        };
+        let sizes = [Ok([1.0, 2.0, 3.0]), Err("nothing is found".into())];
+        let snapshots: Vec<SheetSnapshot> = sizes.into_iter().zip(0..).map(|(s, k)| snapshot(f64::from(k), s)).collect();
+        let mut history = HistorySheet { snapshots, ..HistorySheet::default() };
+        let page = html(&Page::of_history(history.clone()));
+        assert!(page.contains("no snapshot has damage of known length; told of damage that is not there in 1 of 2"));
+        assert!(!page.contains("The envelope's line") && !page.contains("Damage over life"));
+        history.snapshots[0].level = Some(1.0);
+        assert!(html(&Page::of_history(history)).contains("The envelope's line"));
+    }
+
+    #[test]
+    fn regress_reasons_that_differ_in_numbers_are_one() {
+        let damaged = |size| SheetSnapshot { length_mm: Some(1.0), size: Some(size), ..SheetSnapshot::default() };
+        let short = |need: f64| damaged(Err(format!("{need} s of signal are needed, and there are 1.00 s")));
+        let history = HistorySheet { snapshots: vec![short(3.36), short(2.9), short(3.36)], ..HistorySheet::default() };
+        let told = history.told();
+        assert!(
+            told.ends_with("not told: 3 times 3.36 s of signal are needed, and there are 1.00 s (the numbers of the first of them)"),
+            "{told}"
+        );
     }
 }
