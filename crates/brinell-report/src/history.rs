@@ -262,9 +262,9 @@ mod tests {
         let mut history = HistorySheet { snapshots, ..HistorySheet::default() };
         let page = html(&Page::of_history(history.clone()));
         assert!(page.contains("no snapshot has damage of known length; told of damage that is not there in 1 of 2"));
-        assert!(!page.contains("The envelope's line") && !page.contains("Damage over life"));
+        assert!(!page.contains("before there is damage as well") && !page.contains("Damage over life"));
         history.snapshots[0].level = Some(1.0);
-        assert!(html(&Page::of_history(history)).contains("The envelope's line"));
+        assert!(html(&Page::of_history(history)).contains("before there is damage as well"));
     }
 
     #[test]
