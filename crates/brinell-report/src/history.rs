@@ -258,7 +258,8 @@ mod tests {
             ..SheetSnapshot::default()
         };
         let sizes = [Ok([1.0, 2.0, 3.0]), Err("nothing is found".into())];
-        let snapshots: Vec<SheetSnapshot> = sizes.into_iter().zip(0..).map(|(s, k)| snapshot(f64::from(k), s)).collect();
+        let snapshots: Vec<SheetSnapshot> =
+            sizes.into_iter().zip(0..).map(|(s, k)| snapshot(f64::from(k), s)).collect();
         let mut history = HistorySheet { snapshots, ..HistorySheet::default() };
         let page = html(&Page::of_history(history.clone()));
         assert!(page.contains("no snapshot has damage of known length; told of damage that is not there in 1 of 2"));
@@ -274,7 +275,9 @@ mod tests {
         let history = HistorySheet { snapshots: vec![short(3.36), short(2.9), short(3.36)], ..HistorySheet::default() };
         let told = history.told();
         assert!(
-            told.ends_with("not told: 3 times 3.36 s of signal are needed, and there are 1.00 s (the numbers of the first of them)"),
+            told.ends_with(
+                "not told: 3 times 3.36 s of signal are needed, and there are 1.00 s (the numbers of the first of them)"
+            ),
             "{told}"
         );
     }

@@ -236,6 +236,8 @@ mod tests {
             assert!(page.contains(part), "{part}");
         }
         assert_eq!(page.matches("<svg").count(), 4);
+        // Of a run whose loads are a shaft's none is said.
+        assert!(!page.contains(" 0 N"));
         // Without anything from elsewhere.
         assert!(!page.contains("src=\"http"));
     }

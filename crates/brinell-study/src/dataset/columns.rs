@@ -280,9 +280,11 @@ impl DataColumn {
     }
 }
 
-/// Whether a key is one of damage, of one bearing or of one of a machine's, or of how it grows.
+/// Whether a key is one of damage, of one bearing or of one of a machine's, or of how it grows; when machines are looked at
+/// everybody sees.
 pub(crate) fn is_of_damage(key: &str) -> bool {
-    key.starts_with("defects") || key.starts_with("history.") || key.starts_with("bearing.") && key.contains(".defects")
+    let grows = key.starts_with("history.") && key != "history.every_h";
+    key.starts_with("defects") || grows || key.starts_with("bearing.") && key.contains(".defects")
 }
 
 fn extent(defect: &Defect) -> Extent {

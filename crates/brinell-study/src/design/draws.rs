@@ -365,7 +365,9 @@ impl Draws {
                 draw.settings.push((key, "[]".to_owned()));
             }
         }
-        warnings.retain(|warning| has_damage && warning.key.contains(".shape.outline") && warning.message.contains(" cross"));
+        warnings.retain(|warning| {
+            has_damage && warning.key.contains(".shape.outline") && warning.message.contains(" cross")
+        });
         Ok(warnings)
     }
 

@@ -419,10 +419,16 @@ fn regress_what_does_not_fit_a_history_is_refused_with_what_would_do() {
         problems[0].to_string().replace("\n  allowed", "; allowed")
     };
     let found = refused("fails_mm = 5.0", "fails_mm = 500.0");
-    assert!(found.contains("history.fails_mm = 500: damage of this length goes once around the outer raceway; allowed: < "), "{found}");
+    assert!(
+        found.contains("history.fails_mm = 500: damage of this length goes once around the outer raceway; allowed: < "),
+        "{found}"
+    );
     let profile = "shape.profile = { arc_mm = [0, 1, 2, 3], depth_um = [0, 30, 20, 0], width_mm = [2, 2, 2, 2] }";
     let found = refused("shape.random = { length_mm = 2, width_mm = 3, roughness = 0.9 }", profile);
-    assert!(found.contains("the depths of this profile over its arc would be lost; allowed: a profile without `depth_um`"), "{found}");
+    assert!(
+        found.contains("the depths of this profile over its arc would be lost; allowed: a profile without `depth_um`"),
+        "{found}"
+    );
     let draws = super::draws(PLAN);
     let found = draws.scenario(&BASE.replace("0.12", "0.05"), 0).unwrap_err().0;
     let found = found[0].to_string().replace("\n  allowed", "; allowed");

@@ -143,9 +143,7 @@ impl Snapshot {
         let outline = star.grown(self.length_mm, self.fails_mm, widest, -all.axial_offset_mm);
         let points: Vec<String> = outline.iter().map(|[s, z]| format!("[{s}, {z}]")).collect();
         let depth = match &all.shape {
-            scenario::Shape::DepthMap { .. } => {
-                1e6 * Extent::of(&shape, 1e-6 * all.depth_um).depth
-            }
+            scenario::Shape::DepthMap { .. } => 1e6 * Extent::of(&shape, 1e-6 * all.depth_um).depth,
             _ => all.depth_um,
         };
         let depth = depth * (self.length_mm / self.fails_mm).powf(history.depth_exponent);

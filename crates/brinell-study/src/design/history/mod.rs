@@ -16,8 +16,8 @@ use brinell::document::reading::Choice;
 pub(super) use grown::{Turning, only_defect};
 pub use law::Law;
 pub use outline::Edge;
-pub(super) use snapshot::{is_to_the_end, times};
 pub use snapshot::{Snapshot, State};
+pub(super) use snapshot::{is_to_the_end, times};
 pub use varied::Varied;
 pub(super) use varied::short;
 

@@ -31,8 +31,10 @@ impl HistoryKeys {
         );
         let has = self.machines.is_some();
         k.only_where(key("runs", "how many runs").from(1.0).to(MOST_RUNS), !has, "`machines` is not given", runs);
-        let spec =
-            key("snapshots", "runs of each machine at most: from new on one every history.every_h, and one at its failure");
+        let spec = key(
+            "snapshots",
+            "runs of each machine at most: from new on one every history.every_h, and one at its failure",
+        );
         k.only_where(spec.from(2.0).to(MOST_RUNS), has, CASE, &mut self.snapshots);
     }
 

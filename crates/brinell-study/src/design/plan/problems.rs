@@ -85,7 +85,8 @@ impl Checker<'_> {
     fn history(&mut self, history: &History) {
         let runs = self.plan.runs as f64;
         if runs > MOST_RUNS {
-            let message = format!("{} machines with {} snapshots are up to {runs} runs", history.machines, history.snapshots);
+            let message =
+                format!("{} machines with {} snapshots are up to {runs} runs", history.machines, history.snapshots);
             self.add("machines", &history.machines.to_string(), message, &format!("at most {MOST_RUNS} runs"));
         }
         if history.begins_at.ends()[1] >= 1.0 {
@@ -255,7 +256,12 @@ impl Checker<'_> {
             for (path, _) in template.settings().into_iter().filter(|_| is_table) {
                 if path.split('.').next() == Some("history") {
                     let message = "how damage grows is no key of a scenario".to_owned();
-                    self.add(&format!("{what}.{path}"), "", message, "this key in [history]: any number there may be a distribution");
+                    self.add(
+                        &format!("{what}.{path}"),
+                        "",
+                        message,
+                        "this key in [history]: any number there may be a distribution",
+                    );
                     continue;
                 }
                 if let Err(message) = path_parts(&path) {
