@@ -177,12 +177,13 @@ fn regress_what_a_history_is_not_is_refused_at_its_line() {
     make(folder.path(), &["--dry-run"])
         .exits(2)
         .complains(&["goes once around", "give narrower distributions, or `out_of_range = \"fail\"`"]);
-    let folder = folder_with(&PLAN.replace("name = \"outer\"\n", "name = \"outer\"\nbearing = 7\n"));
+    let of_machine = PLAN.replace("seed = 11", "seed = 11\nsignals = [\"*\"]");
+    let folder = folder_with(&of_machine.replace("name = \"outer\"\n", "name = \"outer\"\nbearing = 7\n"));
     fs::write(folder.path().join("base.toml"), include_str!("../../src/init/machine.toml")).unwrap();
     make(folder.path(), &["--dry-run"]).exits(2).complains(&[
         "classes.0.bearing = 7: the base has 2 bearings",
         "allowed: 1 to 2",
-        "plan.toml:29:",
+        "plan.toml:32:",
     ]);
     let folder = folder_with(&PLAN.replace("machines = 3\n", ""));
     make(folder.path(), &["--dry-run"])
