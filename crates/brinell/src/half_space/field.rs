@@ -105,9 +105,9 @@ impl Field {
         self
     }
 
-    /// With the largest pressure in cells that meet `bounds`: a straight roller's end may press more elsewhere. `None` where
-    /// nothing presses there.
-    fn within(mut self, bounds: &Bounds) -> Option<Self> {
+    /// The largest pressure in cells that meet `bounds`, and its s and z: a straight roller's end may press more elsewhere. `None`
+    /// where nothing presses there.
+    fn within(&self, bounds: &Bounds) -> Option<(f64, [f64; 2])> {
         let cells = |axis: usize, [low, high]: [f64; 2]| {
             let cell = |x: f64| (x - self.first[axis]) / self.size[axis] + 0.5;
             let end = |x: f64| x.clamp(0.0, self.cells[axis] as f64) as usize;
@@ -117,9 +117,7 @@ impl Field {
         let all = across.flat_map(|row| along.clone().map(move |column| [column, row]));
         let pressure = |[column, row]: [usize; 2]| self.pressure[row * self.cells[0] + column];
         let most = all.max_by(|a, b| pressure(*a).total_cmp(&pressure(*b))).filter(|cell| pressure(*cell) > 0.0)?;
-        self.largest = pressure(most);
-        self.at = [0, 1].map(|k| self.first[k] + self.size[k] * most[k] as f64);
-        Some(self)
+        Some((pressure(most), [0, 1].map(|k| self.first[k] + self.size[k] * most[k] as f64)))
     }
 
     /// Share of the pressed area whose pressure is above `limit`, Pa.
@@ -148,18 +146,25 @@ pub(super) fn largest_pressure(geometry: &Geometry, raster: &Raster, delta: f64,
     let quarter = (0.25 * geometry.half_width(delta + raster.raised()) / dx).round() as i64;
     let step = quarter.max((last - first) / PLACES).max(1);
     let mut largest: Option<(f64, i64)> = None;
-    let mut before = Vec::new();
+    let mut before: Option<(Vec<usize>, Option<Field>)> = None;
     for middle in (first..=last).step_by(step as usize) {
         let window = coarse.grid.window(middle);
-        if window == before {
-            continue;
-        }
-        before = window;
-        if let Some(field) = coarse.field(middle).and_then(|field| field.within(bounds))
-            && largest.is_none_or(|(most, _)| field.largest > most)
+        // What lies under the contact is the same, and so is the pressure, about another middle.
+        let field = match before.take() {
+            Some((same, field)) if same == window => field.map(|field| {
+                let moved = field.middle - middle as f64 * dx;
+                field.seen_from(moved)
+            }),
+            _ => coarse.field(middle),
+        };
+        if let Some((most, _)) = field.as_ref().and_then(|field| field.within(bounds))
+            && largest.is_none_or(|(before, _)| most > before)
         {
-            largest = Some((field.largest, middle));
+            largest = Some((most, middle));
         }
+        before = Some((window, field));
     }
-    pressure_at(geometry, raster, delta, largest?.1 as f64 * dx, Tables::Standard)?.within(bounds)
+    let field = pressure_at(geometry, raster, delta, largest?.1 as f64 * dx, Tables::Standard)?;
+    let (largest, at) = field.within(bounds)?;
+    Some(Field { largest, at, ..field })
 }
