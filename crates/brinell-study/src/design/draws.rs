@@ -3,7 +3,7 @@
 use super::damaged::{bearings_of, damage_of};
 use super::distribution::{Distribution, KINDS, Value};
 use super::drawn::{Drawn, Parameter, common_axes, sequence};
-use super::history::{History, Snapshot, Turning, is_to_the_end, only_defect, times};
+use super::history::{History, Snapshot, Turning, only_defect, times};
 use super::plan::{OutOfRange, Plan};
 use super::seeded::{SEEDED_PER_RUN, Seeded, holding};
 use super::sequence::Sequence;
@@ -106,7 +106,7 @@ impl Draws {
     }
 
     /// What a machine's life has drawn.
-    fn life(&self, place: usize) -> Vec<Value> {
+    pub(super) fn life(&self, place: usize) -> Vec<Value> {
         let of_grid = self.of_grid(place);
         let axes = self.classes[self.class_at(place)].life.clone();
         axes.map(|axis| self.value((place, 0), axis, 0, of_grid.as_deref())).collect()
@@ -127,7 +127,7 @@ impl Draws {
     }
 
     /// Runs of a place.
-    fn runs_at(&self, place: usize) -> usize {
+    pub(super) fn runs_at(&self, place: usize) -> usize {
         self.firsts.get(place + 1).map_or(1, |next| next - self.firsts[place])
     }
 
@@ -141,29 +141,8 @@ impl Draws {
         self.class_at(self.place_of(run).0)
     }
 
-    fn class_at(&self, place: usize) -> usize {
+    pub(super) fn class_at(&self, place: usize) -> usize {
         self.places[place].class as usize
-    }
-
-    /// Runs of a class.
-    pub fn runs_of(&self, class: usize) -> usize {
-        self.count(|place| self.class_at(place) == class)
-    }
-
-    /// Machines of a class, with histories.
-    pub fn machines_of(&self, class: usize) -> usize {
-        self.classes[class].runs
-    }
-
-    /// Machines that are observed until their life ends.
-    pub fn to_the_end(&self) -> usize {
-        let Some(history) = &self.plan.history else { return 0 };
-        (0..self.places.len()).filter(|place| is_to_the_end(history, &self.life(*place))).count()
-    }
-
-    /// Runs of some places.
-    fn count(&self, of: impl Fn(usize) -> bool) -> usize {
-        (0..self.places.len()).filter(|place| of(*place)).map(|place| self.runs_at(place)).sum()
     }
 
     /// Every key that some class draws.
@@ -171,35 +150,18 @@ impl Draws {
         &self.parameters
     }
 
-    /// Runs of a class whose labels are not held out.
-    pub fn open_runs_of(&self, class: usize) -> usize {
-        self.count(|place| self.class_at(place) == class && !self.is_apart(place))
-    }
-
     /// Whether a run's labels are held out.
     pub fn is_held_out(&self, run: usize) -> bool {
         self.is_apart(self.place_of(run).0)
     }
 
-    fn is_apart(&self, place: usize) -> bool {
+    pub(super) fn is_apart(&self, place: usize) -> bool {
         self.places[place].number == APART
     }
 
     /// What a run is for.
     pub fn part(&self, run: usize) -> Part {
         self.parts[self.place_of(run).0]
-    }
-
-    /// Of each part that has runs, in the order of the files: how many of each class.
-    pub fn splits(&self) -> Vec<(Part, Vec<usize>)> {
-        let of = |part: Part| {
-            let mut runs = vec![0; self.classes.len()];
-            let mine = (0..self.runs()).filter(|run| self.part(*run) == part);
-            mine.for_each(|run| runs[self.class(run)] += 1);
-            (part, runs)
-        };
-        let all = Part::ALL.into_iter().map(of);
-        all.filter(|(_, runs)| runs.iter().any(|n| *n > 0)).collect()
     }
 
     /// Under which conditions the runs of a place run: of each key its value, or in which of [`BANDS`] it lies where it is drawn
