@@ -84,8 +84,11 @@ fn words(sheet: &Sheet, run: &SheetRun) -> String {
         Some(rpm) => format!("{} r/min", significant(rpm, 4)),
         None => "speed varies".into(),
     });
-    let load: f64 = run.load_n.iter().map(|x| x * x).sum::<f64>().sqrt();
-    words.push(format!("{} N", significant(load, 3)));
+    // Of a machine with a shaft the loads are the shaft's.
+    if !run.load_n.is_empty() {
+        let load: f64 = run.load_n.iter().map(|x| x * x).sum::<f64>().sqrt();
+        words.push(format!("{} N", significant(load, 3)));
+    }
     for damage in &run.defects {
         words.push(format!(
             "{} at {}°, {} mm × {} mm, {} µm deep",
@@ -233,6 +236,8 @@ mod tests {
             assert!(page.contains(part), "{part}");
         }
         assert_eq!(page.matches("<svg").count(), 4);
+        // Of a run whose loads are a shaft's none is said.
+        assert!(!page.contains(" 0 N"));
         // Without anything from elsewhere.
         assert!(!page.contains("src=\"http"));
     }

@@ -34,12 +34,14 @@ pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
         plan.seed
     );
     if let Some(history) = &plan.history {
-        tell_history(history);
+        tell_history(history, draws.to_the_end());
     }
     for (label, class) in plan.classes.iter().enumerate() {
         let runs = draws.runs_of(label);
-        let machines =
-            plan.history.as_ref().map_or(String::new(), |h| format!("{}, ", plural(runs / h.snapshots, "machine")));
+        let machines = match plan.history {
+            Some(_) => format!("{}, ", plural(draws.machines_of(label), "machine")),
+            None => String::new(),
+        };
         say!("  {label} {}: {machines}{}", class.name, plural(runs, "run"));
     }
     tell_splits(campaign);
@@ -74,12 +76,13 @@ pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
     );
 }
 
-/// Machines, and how their damage grows.
-fn tell_history(history: &History) {
+/// Machines, how many of them are seen until their life ends, and how their damage grows.
+fn tell_history(history: &History, to_the_end: usize) {
     say!(
-        "  {} of {}, observed until {} of the life",
+        "  {} of up to {}, one every {} h, observed until {} of the life; {to_the_end} of them to its end",
         plural(history.machines, "machine"),
         plural(history.snapshots, "snapshot"),
+        history.every_h,
         history.observed
     );
     say!(

@@ -16,6 +16,7 @@ runs_per_file = 6
 test = 0.3
 
 [history]
+every_h = 100
 law = "exponential"
 rate = { uniform = [2, 4] }
 begins_mm = 1.0
@@ -59,7 +60,7 @@ fn prop_a_machine_is_in_one_file_with_the_truth_of_its_life_whatever_the_shards(
     let here = folder.path();
     make(here, &["-o", "one", "--dry-run"]).exits(0).says(&[
         "lives: 12 runs in 3 files",
-        "3 machines of 4 snapshots, observed until 1 of the life",
+        "3 machines of up to 4 snapshots, one every 100 h, observed until 1 of the life; 3 of them to its end",
         "assumed: exponential with history.rate = 2 to 4, scatter 0.5; from 1 mm to 4 mm, where a machine counts as failed",
         "damage begins at 0.2 of the life, which is 300 h",
         "0 outer: 2 machines, 8 runs",
@@ -96,13 +97,24 @@ fn prop_a_machine_is_in_one_file_with_the_truth_of_its_life_whatever_the_shards(
     let about = fs::read_to_string(here.join("one/dataset.json")).unwrap();
     for part in [
         "\"machines\": 3",
-        "\"assumed\": \"length as an exponential function of the running time",
+        "\"assumed\": \"a snapshot every 100 h; length as an exponential function of the running time",
+        "\"rows_of_files\"",
         "\"remaining_life_h\"",
     ] {
         assert!(about.contains(part), "{part}");
     }
     let card = fs::read_to_string(here.join("one/README.md")).unwrap();
     assert!(card.contains("**How damage grows is an assumption, and no prediction**") && card.contains("## Histories"));
+    let (_, truth) = card.split_once("that no model may be given: ").unwrap();
+    let (truth, warned) = truth.split_once(". Nor is it to be given `run` and `machine`: classes take turns").unwrap();
+    assert!(truth.contains("`remaining_life_h`") && truth.contains("`load_cycles`"), "{truth}");
+    for known in
+        ["revolutions", "samples", "kernel", "accuracy", "clipped_samples", "redrawn", "time_h", "history.every_h"]
+    {
+        assert!(!truth.contains(&format!("`{known}`")), "{known}");
+    }
+    assert!(warned.contains("not how many follow"), "{warned}");
+    assert!(!about.contains("  edges rounded"), "blanks");
 }
 
 /// Of a machine that fails: what rows say of its life hangs together.
@@ -138,12 +150,12 @@ fn regress_what_a_history_is_not_is_refused_at_its_line() {
     let folder = folder_with(&PLAN.replace("fails_mm = 4.0", "fails_mm = 0.5"));
     make(folder.path(), &["-o", "out"])
         .exits(2)
-        .complains(&["history.fails_mm = 0.5: damage begins with up to 1 mm", "plan.toml:15:"]);
+        .complains(&["history.fails_mm = 0.5: damage begins with up to 1 mm", "plan.toml:16:"]);
     let folder = folder_with(&PLAN.replace("duration_s = 0.42", "duration_s = 0.3"));
     make(folder.path(), &["-o", "out"]).exits(2).complains(&[
         "simulation.duration_s = 0.3: a snapshot of 5.53 turns of the shaft from the end of its start on at the slowest speed, 1400 r/min (in 12 of 12 runs",
         "allowed: >= 0.406 s: 8 turns after the start",
-        "plan.toml:24:",
+        "plan.toml:25:",
     ]);
     let folder = folder_with(&PLAN.replace("scatter = 0.5", "scatter = 0.0"));
     make(folder.path(), &["--dry-run"])
@@ -152,10 +164,26 @@ fn regress_what_a_history_is_not_is_refused_at_its_line() {
     let folder = folder_with(&PLAN.replace("scatter = 0.5", "observed = 0.1"));
     make(folder.path(), &["--dry-run"]).exits(0).complains(&["[history] grows nothing: no snapshot has damage"]);
     let folder = folder_with(&PLAN.replace("depth_um = 20", "depth_um = 0"));
+    make(folder.path(), &["--dry-run"])
+        .exits(2)
+        .complains(&["no length or no depth", "allowed: a shape with a length, and depth_um above 0"]);
+    let folder = folder_with(&PLAN.replace("fails_mm = 4.0", "fails_mm = 400"));
+    let call = make(folder.path(), &["--dry-run"]).exits(2).complains(&[
+        "history.fails_mm = 400: damage of this length goes once around the outer raceway (in 6 of 12 runs",
+        "plan.toml:16:",
+    ]);
+    assert!(!call.err.contains("give narrower distributions"), "{call:#?}");
+    let folder = folder_with(&PLAN.replace("fails_mm = 4.0", "fails_mm = { uniform = [4, 400] }"));
+    make(folder.path(), &["--dry-run"])
+        .exits(2)
+        .complains(&["goes once around", "give narrower distributions, or `out_of_range = \"fail\"`"]);
+    let of_machine = PLAN.replace("seed = 11", "seed = 11\nsignals = [\"*\"]");
+    let folder = folder_with(&of_machine.replace("name = \"outer\"\n", "name = \"outer\"\nbearing = 7\n"));
+    fs::write(folder.path().join("base.toml"), include_str!("../../src/init/machine.toml")).unwrap();
     make(folder.path(), &["--dry-run"]).exits(2).complains(&[
-        "no length or no depth",
-        "allowed: a shape with a length, and depth_um above 0",
-        "or `out_of_range = \"fail\"`",
+        "classes.0.bearing = 7: the base has 2 bearings",
+        "allowed: 1 to 2",
+        "plan.toml:32:",
     ]);
     let folder = folder_with(&PLAN.replace("machines = 3\n", ""));
     make(folder.path(), &["--dry-run"])
@@ -166,6 +194,24 @@ fn regress_what_a_history_is_not_is_refused_at_its_line() {
     brinell(folder.path(), &["dataset", "sheet", "out", "--machine", "0"])
         .exits(2)
         .complains(&["out: its runs are no histories of machines"]);
+}
+
+#[test]
+fn prop_damage_off_the_middle_has_its_outline_and_its_pressure_in_one_frame() {
+    let shape = "shape.random = { length_mm = 2, width_mm = 3 }";
+    let plan = PLAN.replace(shape, "axial_offset_mm = 1.5\nshape.rectangle = { length_mm = 2, width_mm = 0.5 }");
+    let folder = folder_with(&plan.replace("machines = 3", "machines = 1").replace("[split]\ntest = 0.3\n", ""));
+    let here = folder.path();
+    make(here, &["-o", "out", "-q"]).exits(0);
+    let mut seen = 0;
+    for row in rows(&here.join("out/runs/part-00000.parquet")).iter().skip(1) {
+        let (z, at) = (list(row, "outline_z_mm").unwrap(), list(row, "edge_pressure_at_mm").unwrap());
+        let ends = [z.iter().fold(f64::INFINITY, |a, b| a.min(*b)), z.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b))];
+        assert!((ends[0] + ends[1] - 3.0).abs() < 1e-5, "{ends:?}");
+        assert!(ends[0] - 0.15 < at[1] && at[1] < ends[1] + 0.15, "{at:?} for {ends:?}");
+        seen += 1;
+    }
+    assert_eq!(seen, 3);
 }
 
 #[test]
@@ -218,7 +264,8 @@ fn prop_of_a_held_out_machine_no_row_tells_its_life() {
         {
             assert_eq!(*cell(row, truth), Field::Null, "{truth}");
         }
-        for truth in ["revolutions", "load_cycles", "edge_pressure_mpa", "defect_length_mm", "history.rate"] {
+        assert!(number(row, "revolutions").is_some());
+        for truth in ["load_cycles", "edge_pressure_mpa", "defect_length_mm", "history.rate"] {
             assert_eq!(*cell(row, truth), Field::Null, "{truth}");
         }
     }

@@ -55,6 +55,8 @@ pub struct IndicatorPlot {
     pub x_ticks: Vec<(f64, String)>,
     /// Changes: the earliest, the most likely and the latest place on the x axis.
     pub changes: Vec<[f64; 3]>,
+    /// Whether points that share a place are drawn at it, and not beside one another.
+    pub in_place: bool,
     /// Places on the x axis, marked above the plot: each kind with its words and colour.
     pub lanes: Vec<(String, Tone, Vec<f64>)>,
 }
@@ -119,7 +121,7 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
         chart.picture.text(words.color(ink::FAINT));
     }
     let count = plot.lines.len();
-    let step = BESIDE.min(BESIDE_ALL / count.max(1) as f64);
+    let step = if plot.in_place { 0.0 } else { BESIDE.min(BESIDE_ALL / count.max(1) as f64) };
     for (k, line) in plot.lines.iter().enumerate() {
         let beside = (k as f64 - 0.5 * (count as f64 - 1.0)) * step;
         draw(&mut chart, line, paint(k), beside, !named || plot.ordered);

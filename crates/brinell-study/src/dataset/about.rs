@@ -89,9 +89,13 @@ impl About {
     /// Split and rows of each file, in order.
     pub(crate) fn rows_of_files(&self) -> Vec<(String, u64)> {
         let each = self.runs_per_file.max(1);
-        let of_split = |split: &Split| {
-            let (name, runs) = (split.name.clone(), split.runs);
-            (0..runs.div_ceil(each)).map(move |k| (name.clone(), each.min(runs - k * each)))
+        let of_split = |split: &Split| -> Vec<(String, u64)> {
+            let runs = split.runs;
+            let rows = match split.rows_of_files.is_empty() {
+                true => (0..runs.div_ceil(each)).map(|k| each.min(runs - k * each)).collect(),
+                false => split.rows_of_files.clone(),
+            };
+            rows.into_iter().map(|rows| (split.name.clone(), rows)).collect()
         };
         self.splits.iter().flat_map(of_split).collect()
     }
@@ -105,6 +109,9 @@ pub(crate) struct Split {
     pub(crate) name: String,
     pub(crate) runs: u64,
     pub(crate) files: usize,
+    /// Of machines with histories: rows of each file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) rows_of_files: Vec<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) runs_of_classes: Option<Vec<u64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -162,6 +169,7 @@ pub(crate) struct Class {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Histories {
     pub(crate) machines: u64,
+    /// Of a machine at most.
     pub(crate) snapshots: u64,
     pub(crate) assumed: String,
     /// Columns that no model may be given.

@@ -67,13 +67,17 @@ struct Files {
 
 impl Files {
     fn new(draws: &Draws) -> Self {
-        let each = draws.plan().rows_per_file();
+        let most = draws.plan().runs_per_file;
         let (mut runs, mut files) = (Vec::with_capacity(draws.runs()), Vec::new());
         for part in Part::ALL {
             let mut from = runs.len();
             runs.extend((0..draws.runs()).filter(|run| draws.part(*run) == part));
             while from < runs.len() {
-                let to = (from + each).min(runs.len());
+                // Whole machines: the last one that ends within the file, or else the first.
+                let ends = |k: &usize| *k == runs.len() || draws.unit_of(runs[*k]) != draws.unit_of(runs[*k - 1]);
+                let end = (from + most).min(runs.len());
+                let last = (from + 1..=end).rev().find(ends);
+                let to = last.or_else(|| (end..=runs.len()).find(ends)).unwrap_or(runs.len());
                 files.push((part, from..to));
                 from = to;
             }
@@ -201,7 +205,7 @@ impl Campaign {
         let plan = self.plan();
         let is_idle = plan.history.is_some() && survey.damaged == 0 && survey.is_sound(plan.out_of_range);
         let idle = is_idle.then(|| {
-            "[history] grows nothing: no snapshot has damage; give classes `defects`, and history.observed above history.begins_at".to_owned()
+            "[history] grows nothing: no snapshot has damage; give classes `defects`, history.observed above history.begins_at, and snapshots times history.every_h of more than the time until damage begins".to_owned()
         });
         let notes = idle.into_iter().chain(repeats).chain(self.draws().notes());
         of_runs.into_iter().chain(notes.map(|note| format!("warning: {note}"))).collect()

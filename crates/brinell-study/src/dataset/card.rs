@@ -158,10 +158,13 @@ fn card(about: &About) -> String {
 fn life(histories: &Histories) -> String {
     let truth: Vec<String> = histories.truth.iter().map(|name| format!("`{name}`")).collect();
     format!(
-        "\n## Histories\n\nEach of the {} machines has {} rows, its life in snapshots: `machine`, `snapshot`, `time_h`. A machine is healthy, is damaged, and \
+        "\n## Histories\n\nEach of the {} machines has up to {} rows, its life in snapshots: `machine`, `snapshot`, `time_h`. They come at an interval that has nothing to do with \
+         the life, from new on, and one at failure where that is seen. A machine is healthy, is damaged, and \
          counts as failed when its damage has a stated length; nothing else fails. A machine belongs to one split as a whole.\n\n**How damage grows is an \
          assumption, and no prediction**: {}. What a model learns of the remaining life is this law, and no bearing's.\n\nColumns that no test rig tells, \
-         and that no model may be given: {}. Of `time_h` give it those up to the row's own: the last time of a machine that is run to failure is its life.\n",
+         and that no model may be given: {}. Nor is it to be given `run` and `machine`: classes take turns, so that the remainder of the machine's number \
+         divided by the number of classes tells the class. Of a machine give it the rows up to the one that it is asked about, and not how many follow: the last \
+         `time_h` of a machine that is run to failure is its life.\n",
         histories.machines,
         histories.snapshots,
         histories.assumed,

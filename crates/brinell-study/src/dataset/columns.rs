@@ -244,35 +244,47 @@ const TRUTH: [Fixed; 55] = [
 /// What a snapshot of a machine's life has beside: which one it is, and the truth of that life.
 #[rustfmt::skip]
 const OF_HISTORIES: [(Fixed, bool); 18] = [
-    (("machine", "1", "number of the machine, from 0: its rows are its life", Whole(|r| Some(r.snapshot()?.machine))), false),
-    (("snapshot", "1", "number of the snapshot of this machine, from 0", Whole(|r| Some(r.snapshot()?.number))), false),
-    (("time_h", "h", "running time since the machine was new. Of a machine that is run to failure its last one is the life: to a model give times up to the row's own",
+    (("machine", "1", "number of the machine, from 0: its rows are its life. No feature: classes take turns, so that it tells the class", Whole(|r| Some(r.snapshot()?.machine))), false),
+    (("snapshot", "1", "number of the snapshot of this machine, from 0: one every history.every_h, which has nothing to do with the life", Whole(|r| Some(r.snapshot()?.number))), false),
+    (("time_h", "h", "running time since the machine was new. Of a machine that is run to failure the last one is the life: to a model give the rows up to its own, and not how many follow",
         Number(|r| Some(r.snapshot()?.time_h))), false),
     (("state", "1", "healthy, damaged or failed: damage has the length of failure", Words(|r| Some(r.snapshot()?.state().word().into()))), true),
     (("life_share", "1", "share of the life that is over; none of a machine that stays healthy", Number(|r| r.snapshot()?.share())), true),
     (("life_h", "h", "running time until failure, which is by the size of damage alone", Number(|r| r.snapshot()?.life())), true),
     (("remaining_life_h", "h", "running time from this snapshot until failure", Number(|r| r.snapshot()?.remaining())), true),
-    (("censored", "1", "whether the machine's failure is not among its snapshots", Flag(|r| Some(r.snapshot()?.is_censored()))), true),
+    (("censored", "1", "whether the machine's failure is not among its snapshots; a run that failed (`status`) may be the one of the failure", Flag(|r| Some(r.snapshot()?.is_censored()))), true),
     (("damage_begins_h", "h", "running time at which damage begins", Number(|r| r.snapshot()?.begins())), true),
     (("damage_fails_mm", "mm", "length of damage at which the machine counts as failed", Number(|r| r.snapshot()?.fails())), true),
-    (("outline_s_mm", "mm", "corners of the damage seen from above: s, counter-clockwise along the surface from `defect_center_deg`, which stays; empty without damage",
+    (("outline_s_mm", "mm", "corners of the damage seen from above: s, counter-clockwise along the surface from `defect_center_deg`, which is that of the shape at failure and stays; empty without damage",
         Numbers(|r| r.outline(0))), true),
-    (("outline_z_mm", "mm", "the same: z, along the axis", Numbers(|r| r.outline(1))), true),
-    (("revolutions", "1", "turns of the shaft since the machine was new; each snapshot's speed holds from the one before it",
-        Number(|r| r.snapshot()?.turns.map(|turns| turns[0].round()))), true),
-    (("load_cycles", "1", "passes of rolling elements over the place of the damage since the machine was new, in pure rolling; of turning damage also those outside the load zone",
+    (("outline_z_mm", "mm", "the same: z, along the axis from the middle of the rolling element", Numbers(|r| r.outline(1))), true),
+    (("revolutions", "1", "turns of the shaft since the machine was new; each snapshot's speed holds from the one before it; none where the speed varies within a snapshot",
+        Number(|r| r.snapshot()?.turns.map(|turns| turns[0].round()))), false),
+    (("load_cycles", "1", "passes of rolling elements over the place of the damage since the machine was new, in pure rolling, unloaded ones too: outside the load zone no force passes; none where the speed varies within a snapshot",
         Number(|r| r.passes(0))), true),
     (("load_cycles_damaged", "1", "the same since damage began", Number(|r| r.passes(1))), true),
     (("sound_pressure_mpa", "MPa", "largest Hertz pressure of the sound contact under the heaviest rolling element, on the inner and the outer raceway, by the static balance",
         Numbers(|r| Some(r.pressures.as_ref()?.sound.map(|p| 1e-6 * p).to_vec()))), true),
-    (("edge_pressure_mpa", "MPa", "largest pressure over the damage as a rolling element passes with the sound contact's static deformation there (half-space, elastic,         edges rounded over contact.edge_radius_um): it grows as cells shrink, so compare it between snapshots",
+    (("edge_pressure_mpa", "MPa", "largest pressure over the damage as a rolling element passes with the sound contact's static deformation there (half-space, elastic, edges rounded over contact.edge_radius_um; next to its edges as far as these are rounded): it grows as cells shrink, so compare it between snapshots",
         Number(|r| Some(1e-6 * r.pressures.as_ref()?.edge?.0))), true),
-    (("edge_pressure_at_mm", "mm", "its place [s, z]", Numbers(|r| Some(r.pressures.as_ref()?.edge?.1.map(|x| 1e3 * x).to_vec()))), true),
+    (("edge_pressure_at_mm", "mm", "its place [s, z], in the frame of `outline_s_mm` and `outline_z_mm`", Numbers(|r| Some(r.pressures.as_ref()?.edge?.1.map(|x| 1e3 * x).to_vec()))), true),
 ];
 
-/// Whether a key is one of damage, of one bearing or of one of a machine's, or of how it grows.
+/// Of the columns that tell a label or may: those that say nothing of damage, and that a test rig has or could have.
+const HARMLESS: [&str; 5] = ["samples", CLIPPED, "accuracy", "kernel", "redrawn"];
+
+impl DataColumn {
+    /// Whether no model may be given it.
+    pub(crate) fn is_truth(&self) -> bool {
+        self.tells && !HARMLESS.contains(&self.record.column.name.as_str())
+    }
+}
+
+/// Whether a key is one of damage, of one bearing or of one of a machine's, or of how it grows; when machines are looked at
+/// everybody sees.
 pub(crate) fn is_of_damage(key: &str) -> bool {
-    key.starts_with("defects") || key.starts_with("history.") || key.starts_with("bearing.") && key.contains(".defects")
+    let grows = key.starts_with("history.") && key != "history.every_h";
+    key.starts_with("defects") || grows || key.starts_with("bearing.") && key.contains(".defects")
 }
 
 fn extent(defect: &Defect) -> Extent {

@@ -48,11 +48,20 @@ impl HistorySheet {
             (Some(Ok([low, _, high])), Some(mm)) => (*low..=*high).contains(&mm),
             _ => false,
         };
-        let mut why = BTreeMap::<&str, usize>::new();
+        // Reasons that differ in numbers alone are one.
+        let mut why = BTreeMap::<String, (usize, &str, bool)>::new();
         for reason in damaged.iter().filter_map(|s| s.size.as_ref()?.as_ref().err()) {
-            *why.entry(reason.split(':').next().unwrap_or_default()).or_default() += 1;
+            let reason = reason.split(':').next().unwrap_or_default();
+            let kind = reason.replace(|c: char| c.is_ascii_digit() || c == '.', "");
+            let (count, first, differ) = why.entry(kind).or_insert((0, reason, false));
+            *count += 1;
+            *differ |= *first != reason;
         }
-        let why: Vec<String> = why.iter().map(|(reason, count)| format!("{count} times {reason}")).collect();
+        let of_first = |differ: bool| if differ { " (the numbers of the first of them)" } else { "" };
+        let words = |(count, reason, differ): &(usize, &str, bool)| {
+            format!("{count} time{} {reason}{}", if *count == 1 { "" } else { "s" }, of_first(*differ))
+        };
+        let why: Vec<String> = why.values().map(words).collect();
         let mut said = vec![format!(
             "told in {} of {} snapshots with damage; {} of these intervals hold the true length",
             told(&damaged),

@@ -32,11 +32,17 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
         problem.at(place)
     };
     let mut problems: Vec<Problem> = survey.errors.iter().map(described).collect();
-    // Some of a distribution may fit; of a value that is in the plan nothing does.
-    let some = survey.errors.iter().any(|miss| miss.count < survey.runs);
+    // Some of a distribution may fit; of a value that is in the plan nothing does, nor of damage that is the same at every failure.
+    let is_drawn = |key: &str| {
+        let within = |inner: &str, outer: &str| inner == outer || inner.starts_with(&format!("{outer}."));
+        draws.parameters().iter().any(|p| within(&p.key, key) || within(key, &p.key))
+    };
+    let has_histories = draws.plan().history.is_some();
+    let may_fit = |miss: &Misses| miss.count < survey.runs && (!has_histories || is_drawn(&miss.problem.key));
+    let some = survey.errors.iter().any(may_fit);
     if let (false, true, Some(last)) = (redraws, some, problems.last_mut()) {
         // A snapshot that is drawn again would be of another machine.
-        let redraw = if draws.plan().history.is_some() { "" } else { "\"redraw\"` (draw such runs again) or `" };
+        let redraw = if has_histories { "" } else { "\"redraw\"` (draw such runs again) or `" };
         last.message += &format!(
             "; give narrower distributions, or `out_of_range = {redraw}\"fail\"` (keep such runs as failed rows)"
         );

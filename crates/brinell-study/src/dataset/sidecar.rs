@@ -74,7 +74,7 @@ fn about(campaign: &Campaign) -> About {
         kernel: Some(kernel().into()),
         licence: (!plan.licence.is_empty()).then(|| plan.licence.clone()),
         runs: Runs::Planned(draws.runs() as u64),
-        runs_per_file: plan.rows_per_file() as u64,
+        runs_per_file: plan.runs_per_file as u64,
         files: Files::Planned(campaign.parts()),
         splits: splits(campaign),
         classes: plan.classes.iter().enumerate().map(class).collect(),
@@ -83,7 +83,7 @@ fn about(campaign: &Campaign) -> About {
             machines: history.machines as u64,
             snapshots: history.snapshots as u64,
             assumed: history.assumptions(),
-            truth: campaign.columns().iter().filter(|c| c.tells).map(|c| c.record.column.name.clone()).collect(),
+            truth: campaign.columns().iter().filter(|c| c.is_truth()).map(|c| c.record.column.name.clone()).collect(),
         }),
         rate: Rate {
             sample_rate_hz: constant("simulation.sample_rate_hz", simulation.sample_rate_hz),
@@ -110,10 +110,15 @@ fn about(campaign: &Campaign) -> About {
 fn splits(campaign: &Campaign) -> Vec<Split> {
     let split = |(part, classes): (Part, Vec<usize>)| {
         let classes: Vec<u64> = classes.into_iter().map(|runs| runs as u64).collect();
+        let files = || (0..campaign.parts()).filter(|file| campaign.split_of(*file) == part);
         Split {
             name: part.word().into(),
             runs: classes.iter().sum(),
-            files: (0..campaign.parts()).filter(|file| campaign.split_of(*file) == part).count(),
+            files: files().count(),
+            rows_of_files: match campaign.plan().history {
+                Some(_) => files().map(|file| campaign.runs_of(file).len() as u64).collect(),
+                None => Vec::new(),
+            },
             runs_of_classes: (part != Part::HeldOut).then_some(classes),
             ..Split::default()
         }

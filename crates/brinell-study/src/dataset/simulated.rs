@@ -184,11 +184,15 @@ impl<'a> Run<'a> {
     /// Of a history: outline of the damage, s or z of its corners, mm.
     pub(crate) fn outline(&self, axis: usize) -> Option<Vec<f64>> {
         self.snapshot()?;
-        let corners = self.scenario()?.defects.first().map_or(Vec::new(), |defect| match &defect.shape {
+        let defect = self.scenario()?.defects.first();
+        let offset = defect.map_or([0.0; 2], |defect| [0.0, defect.axial_offset_mm]);
+        let corners = defect.map_or(Vec::new(), |defect| match &defect.shape {
             scenario::Shape::Outline { polygons_mm } => polygons_mm.concat(),
             _ => Vec::new(),
         });
-        Some(corners.into_iter().map(|corner| corner[axis]).collect())
+        // To a nanometre, as the outline is written.
+        let place = |corner: [f64; 2]| (1e6 * (corner[axis] + offset[axis])).round() / 1e6;
+        Some(corners.into_iter().map(place).collect())
     }
 
     /// Of a history: passes of rolling elements over the place of the damage since the machine was new (0), or since damage

@@ -12,14 +12,25 @@ pub(super) fn bearings_of(base: &str) -> Result<Option<usize>, Vec<Problem>> {
     })
 }
 
-/// What a class's damage sets: in a machine that of one bearing, and none of the others.
-pub(super) fn damage_of(bearings: Option<usize>, number: Option<usize>, damage: String) -> Vec<(String, String)> {
-    let Some(count) = bearings else { return vec![("defects".into(), damage)] };
+/// What the damage of class `c` sets: in a machine that of one bearing, and none of the others.
+///
+/// # Errors
+/// Where the machine has no such bearing.
+pub(super) fn damage_of(
+    bearings: Option<usize>,
+    (c, number): (usize, Option<usize>),
+    damage: String,
+) -> Result<Vec<(String, String)>, Vec<Problem>> {
+    let Some(count) = bearings else { return Ok(vec![("defects".into(), damage)]) };
     let damaged = number.unwrap_or(1);
+    if damaged > count {
+        let message = format!("the base has {count} bearing{}", if count == 1 { "" } else { "s" });
+        let problem = Problem::error(format!("classes.{c}.bearing"), message).value(damaged.to_string());
+        return Err(vec![problem.allowed(format!("1 to {count}"))]);
+    }
     let of = |k: usize| {
         let own = if k == damaged { damage.clone() } else { "[]".into() };
         (format!("bearing.{}.defects", k - 1), own)
     };
-    // One that is not there is refused where the scenario is read.
-    (1..=count.max(damaged)).map(of).collect()
+    Ok((1..=count).map(of).collect())
 }

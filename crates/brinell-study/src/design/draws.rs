@@ -3,7 +3,7 @@
 use super::damaged::{bearings_of, damage_of};
 use super::distribution::{Distribution, KINDS, Value};
 use super::drawn::{Drawn, Parameter, common_axes, sequence};
-use super::history::{History, Snapshot, Turning, only_defect};
+use super::history::{History, Snapshot, Turning, only_defect, times};
 use super::plan::{OutOfRange, Plan};
 use super::seeded::{SEEDED_PER_RUN, Seeded, holding};
 use super::sequence::Sequence;
@@ -49,6 +49,8 @@ pub struct Draws {
     /// Each run's place there, shuffled, so that it says nothing of the class.
     order: Vec<u32>,
     parts: Vec<Part>,
+    /// With histories: the first run of each place, and at the end how many runs there are.
+    firsts: Vec<usize>,
     /// Of like conditions, where there is a split.
     pub(super) groups: usize,
     parameters: Vec<Parameter>,
@@ -77,7 +79,9 @@ impl Draws {
         let common = common_axes(&plan);
         let open = order.iter().filter(|place| **place != APART).count();
         let common = (common, sequence(&plan, u64::MAX, common, open));
-        let mut draws = Self { plan, secret, classes, places, common, order, parts: Vec::new(), groups: 0, parameters };
+        let (parts, firsts) = (Vec::new(), Vec::new());
+        let mut draws = Self { plan, secret, classes, places, common, order, parts, firsts, groups: 0, parameters };
+        draws.firsts = draws.first_runs();
         let conditions = |run, keys: &[String]| draws.conditions(run, keys);
         let numbers = |run, keys: &[String]| draws.numbers(run, keys);
         (draws.parts, draws.groups) = split::parts(&draws.plan, &draws.places, &draws.parameters, conditions, numbers)?;
@@ -89,14 +93,47 @@ impl Draws {
         &self.plan
     }
 
+    /// See [`Draws::firsts`].
+    fn first_runs(&self) -> Vec<usize> {
+        let Some(history) = &self.plan.history else { return Vec::new() };
+        let mut next = 0;
+        let mut firsts = vec![0];
+        firsts.extend((0..self.places.len()).map(|place| {
+            next += times(history, &self.life(place)).len();
+            next
+        }));
+        firsts
+    }
+
+    /// What a machine's life has drawn.
+    pub(super) fn life(&self, place: usize) -> Vec<Value> {
+        let of_grid = self.of_grid(place);
+        let axes = self.classes[self.class_at(place)].life.clone();
+        axes.map(|axis| self.value((place, 0), axis, 0, of_grid.as_deref())).collect()
+    }
+
     /// How many runs.
     pub fn runs(&self) -> usize {
-        self.places.len() * self.plan.snapshots()
+        self.firsts.last().copied().unwrap_or(self.places.len())
     }
 
     /// Place of a run, and which of the runs there it is.
     fn place_of(&self, run: usize) -> (usize, usize) {
-        (run / self.plan.snapshots(), run % self.plan.snapshots())
+        if self.firsts.is_empty() {
+            return (run, 0);
+        }
+        let place = self.firsts.partition_point(|first| *first <= run) - 1;
+        (place, run - self.firsts[place])
+    }
+
+    /// Runs of a place.
+    pub(super) fn runs_at(&self, place: usize) -> usize {
+        self.firsts.get(place + 1).map_or(1, |next| next - self.firsts[place])
+    }
+
+    /// Number of a run's machine, with histories; of the run otherwise.
+    pub(crate) fn unit_of(&self, run: usize) -> usize {
+        self.place_of(run).0
     }
 
     /// Class of a run, from 0.
@@ -104,13 +141,8 @@ impl Draws {
         self.class_at(self.place_of(run).0)
     }
 
-    fn class_at(&self, place: usize) -> usize {
+    pub(super) fn class_at(&self, place: usize) -> usize {
         self.places[place].class as usize
-    }
-
-    /// Runs of a class.
-    pub fn runs_of(&self, class: usize) -> usize {
-        self.classes[class].runs * self.plan.snapshots()
     }
 
     /// Every key that some class draws.
@@ -118,35 +150,18 @@ impl Draws {
         &self.parameters
     }
 
-    /// Runs of a class whose labels are not held out.
-    pub fn open_runs_of(&self, class: usize) -> usize {
-        self.classes[class].open * self.plan.snapshots()
-    }
-
     /// Whether a run's labels are held out.
     pub fn is_held_out(&self, run: usize) -> bool {
         self.is_apart(self.place_of(run).0)
     }
 
-    fn is_apart(&self, place: usize) -> bool {
+    pub(super) fn is_apart(&self, place: usize) -> bool {
         self.places[place].number == APART
     }
 
     /// What a run is for.
     pub fn part(&self, run: usize) -> Part {
         self.parts[self.place_of(run).0]
-    }
-
-    /// Of each part that has runs, in the order of the files: how many of each class.
-    pub fn splits(&self) -> Vec<(Part, Vec<usize>)> {
-        let of = |part: Part| {
-            let mut runs = vec![0; self.classes.len()];
-            let mine = (0..self.runs()).filter(|run| self.part(*run) == part);
-            mine.for_each(|run| runs[self.class(run)] += 1);
-            (part, runs)
-        };
-        let all = Part::ALL.into_iter().map(of);
-        all.filter(|(_, runs)| runs.iter().any(|n| *n > 0)).collect()
     }
 
     /// Under which conditions the runs of a place run: of each key its value, or in which of [`BANDS`] it lies where it is drawn
@@ -266,7 +281,7 @@ impl Draws {
         set(&class.vary, &mut next, &mut settings);
         if let Some(defects) = &class.defects {
             let damage = defects.toml(&mut next);
-            settings.extend(damage_of(bearings_of(base)?, class.bearing, damage));
+            settings.extend(damage_of(bearings_of(base)?, (c, class.bearing), damage)?);
         }
         if let Some(history) = &self.plan.history {
             set(&history.snapshot, &mut next, &mut settings);
@@ -281,26 +296,27 @@ impl Draws {
     }
 
     /// Puts the damage of that time in place of the damage at failure.
-    fn grow(&self, history: &History, base: &str, run: usize, draw: &mut Draw) -> Result<(), Vec<Problem>> {
-        let whole = read(base, &draw.settings)?.scenario;
+    /// Gives what is to be said of the outline at failure, which grown ones take after.
+    fn grow(&self, history: &History, base: &str, run: usize, draw: &mut Draw) -> Result<Vec<Problem>, Vec<Problem>> {
+        let Loaded { scenario: whole, mut warnings, .. } = read(base, &draw.settings)?;
         let defect = only_defect(&whole)?;
-        let turning = Turning::of(&whole, self.slowest(draw.class))?;
         let at = self.place_of(run);
-        let drawn = self.values(at, draw.redrawn);
-        let life = &drawn[self.classes[draw.class].life.clone()];
         let scattered = |k: usize| unit(self.own_bits(at.0, &[word("history.scatter"), k as u64]));
-        let mut snapshot = Snapshot::of(history, at, defect.map(|defect| defect.on), life, scattered);
+        let mut snapshot = Snapshot::of(history, at, defect.map(|defect| defect.on), &self.life(at.0), scattered);
         if let Speed::Constant(rpm) = whole.operation.speed_rpm {
             let speeds: Vec<f64> = (0..=at.1).map(|k| self.speed((at.0, k), draw).unwrap_or(rpm)).collect();
             snapshot.turns = Some(snapshot.turned(&speeds));
         }
         snapshot.bearing = whole.machine.as_ref().map_or(0, |machine| machine.lead);
+        let has_damage = snapshot.length_mm > 0.0;
+        // Also of a snapshot that makes no scenario: what it should have been.
+        let snapshot = draw.snapshot.insert(Box::new(snapshot));
+        let turning = Turning::of(&whole, self.slowest(draw.class))?;
         if let Some(defect) = defect {
             let key = match &whole.machine {
                 Some(machine) => format!("bearing.{}.defects", machine.lead),
                 None => "defects".to_owned(),
             };
-            let has_damage = snapshot.length_mm > 0.0;
             draw.settings.retain(|(path, _)| {
                 !path.starts_with(&format!("{key}.0.shape")) && (has_damage || !path.starts_with(&key))
             });
@@ -311,8 +327,10 @@ impl Draws {
                 draw.settings.push((key, "[]".to_owned()));
             }
         }
-        draw.snapshot = Some(Box::new(snapshot));
-        Ok(())
+        warnings.retain(|warning| {
+            has_damage && warning.key.contains(".shape.outline") && warning.message.contains(" cross")
+        });
+        Ok(warnings)
     }
 
     /// Least speed that a class draws, r/min.
@@ -395,13 +413,16 @@ impl Draws {
         let mut first = None;
         for attempt in 0..attempts {
             let mut draw = self.draw(base, run, attempt).map_err(|problems| (problems, None))?;
-            if let Some(history) = &self.plan.history
-                && let Err(problems) = self.grow(history, base, run, &mut draw)
-            {
-                return Err((problems, Some(draw)));
-            }
+            let grown = self.plan.history.as_ref().map(|history| self.grow(history, base, run, &mut draw));
+            let of_outline = match grown.transpose() {
+                Ok(warnings) => warnings.unwrap_or_default(),
+                Err(problems) => return Err((problems, Some(draw))),
+            };
             match read(base, &draw.settings) {
-                Ok(loaded) => return Ok((loaded, draw)),
+                Ok(mut loaded) => {
+                    loaded.warnings.extend(of_outline);
+                    return Ok((loaded, draw));
+                }
                 Err(problems) => {
                     first.get_or_insert((problems, Some(draw)));
                 }

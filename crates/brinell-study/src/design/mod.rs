@@ -4,6 +4,7 @@
 //! [`Draws`] makes of it the overrides of each run for [`brinell::document::read`]. What run k draws depends on the
 //! plan, its seed and k, and on nothing else: neither on threads, nor on which runs were done before.
 
+mod counts;
 mod damaged;
 mod distribution;
 mod drawn;

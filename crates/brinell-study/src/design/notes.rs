@@ -25,7 +25,7 @@ impl Draws {
         let lacks = splits.iter().flat_map(|split| self.lacks(split));
         let plan = self.plan();
         let histories = plan.history.iter().flat_map(|history| history.notes(plan.holds_out()));
-        let notes = histories.chain(self.without_runs()).chain(self.idle_secret());
+        let notes = histories.chain(self.without_runs()).chain(self.idle_secret()).chain(self.none_held_out());
         notes.chain(classes.filter_map(uneven)).chain(self.lonely()).chain(lacks).collect()
     }
 
@@ -47,6 +47,25 @@ impl Draws {
             "secret is given and held_out is 0: no labels are held out, and dataset.json shows the plan with its secret \
              (held_out = 0.2 holds out a fifth of them)"
                 .to_owned()
+        })
+    }
+
+    /// That chance holds out nothing, or everything.
+    fn none_held_out(&self) -> Option<String> {
+        /// With this chance one or more are held out.
+        const SURE: f64 = 0.95;
+        let (plan, units) = (self.plan(), self.places.len());
+        let apart = self.places.iter().filter(|place| place.number == APART).count();
+        let share = plan.held_out;
+        let s = if units == 1 { "" } else { "s" };
+        (plan.holds_out() && apart == 0).then(|| {
+            let enough = ((1.0 - SURE).ln() / (1.0 - share).ln()).ceil();
+            let larger = (100.0 * (1.0 - (1.0 - SURE).powf(1.0 / units as f64))).ceil() / 100.0;
+            format!(
+                "held_out = {share} holds out none of {units} {0}{s}: each is drawn by chance; with {enough} {0}s, or with held_out = {larger}, \
+                 one or more are held out with a chance of 95 %; another secret draws others",
+                plan.unit()
+            )
         })
     }
 

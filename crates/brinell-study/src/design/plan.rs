@@ -102,7 +102,7 @@ pub struct Plan {
     pub name: String,
     /// File of the base scenario, from the plan's folder.
     pub base: String,
-    /// How many runs; with histories machines times snapshots.
+    /// How many runs; with histories machines times snapshots, which is the most that there can be.
     pub runs: usize,
     /// Machines that each have a history, where runs are snapshots of machines.
     pub history: Option<History>,
@@ -147,23 +147,12 @@ impl Plan {
 
     /// What draws its class and is for training or for the test as a whole: a run, or a machine with all its snapshots.
     pub(super) fn units(&self) -> usize {
-        self.runs / self.snapshots()
-    }
-
-    /// Runs of one such.
-    pub(super) fn snapshots(&self) -> usize {
-        self.history.as_ref().map_or(1, |history| history.snapshots)
+        self.history.as_ref().map_or(self.runs, |history| history.machines)
     }
 
     /// What one such is called.
     pub(super) fn unit(&self) -> &'static str {
         if self.history.is_some() { "machine" } else { "run" }
-    }
-
-    /// Rows of a file: whole machines.
-    pub(crate) fn rows_per_file(&self) -> usize {
-        let each = self.snapshots();
-        (self.runs_per_file / each).max(1) * each
     }
 
     fn templates(&self) -> impl Iterator<Item = (String, &Template)> {

@@ -132,6 +132,10 @@ pub fn unsaid(message: &str) -> String {
 /// the base does.
 pub(crate) fn place_in_plan(draws: &Draws, plan_text: &str, run: usize, problem: &Problem) -> Option<Place> {
     let class = draws.class(run);
+    // A key of the plan itself.
+    if ["history.", "classes."].iter().any(|table| problem.key.starts_with(table)) {
+        return locate(plan_text, &problem.key);
+    }
     let mut key = problem.key.as_str();
     loop {
         let own = format!("classes.{class}");

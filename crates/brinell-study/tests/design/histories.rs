@@ -26,6 +26,7 @@ snapshots = 5
 seed = 5
 
 [history]
+every_h = 250
 law = "power"
 exponent = 2
 begins_mm = 1.0
@@ -113,6 +114,7 @@ fn outline(scenario: &Scenario) -> Vec<[f64; 2]> {
 fn prop_every_outline_holds_the_one_before_and_never_shrinks() {
     let scattered = PLAN
         .replace("snapshots = 5", "snapshots = 14\n")
+        .replace("every_h = 250", "every_h = 77")
         .replace("begins_at = 0.5", "begins_at = { uniform = [0, 0.3] }\nscatter = 1.0");
     let shapes = [
         "random = { length_mm = 2, width_mm = 3, roughness = 0.9 }",
@@ -217,28 +219,78 @@ fn prop_rolling_elements_enter_where_damage_stays_and_leave_where_it_grows() {
 fn prop_a_machine_is_drawn_once_and_its_snapshots_each() {
     let plan = PLAN
         .replace("life_h = 1000", "life_h = { log = [100, 1000] }")
+        .replace("every_h = 250", "every_h = { uniform = [20, 25] }")
         .replace("exponent = 2", "exponent = 2\nscatter = 0.5");
     let few = draws(&plan);
     let of = |draws: &Draws, run: usize, key: &str| {
         let k = draws.parameters().iter().position(|p| p.key == key).unwrap();
         made(draws, BASE, run).1.values[k].clone().unwrap().number.unwrap()
     };
-    for machine in 0..6 {
-        let all = |key: &str| (5 * machine..5 * (machine + 1)).map(|run| of(&few, run, key)).collect::<Vec<_>>();
-        for once in ["lubricant.viscosity_pa_s", "history.life_h"] {
+    // Runs of each machine, one after the other.
+    let rows = |draws: &Draws| {
+        let mut all: Vec<Vec<usize>> = Vec::new();
+        for run in 0..draws.runs() {
+            let machine = snapshot(draws, run).machine;
+            all.resize(all.len().max(machine + 1), Vec::new());
+            all[machine].push(run);
+        }
+        all
+    };
+    let machines = rows(&few);
+    assert_eq!(machines.len(), 6);
+    for runs in &machines {
+        let all = |key: &str| runs.iter().map(|run| of(&few, *run, key)).collect::<Vec<_>>();
+        for once in ["lubricant.viscosity_pa_s", "history.life_h", "history.every_h"] {
             assert!(all(once).windows(2).all(|pair| pair[0] == pair[1]), "{once}");
         }
         let mut anew = all("operation.load_n.0");
         anew.sort_by(f64::total_cmp);
         anew.dedup();
-        assert_eq!(anew.len(), 5);
+        assert_eq!(anew.len(), runs.len());
     }
     // What machine k is at snapshot j depends on plan, seed, k and j: more machines change nothing.
     let many = draws(&plan.replace("machines = 6", "machines = 11"));
-    for run in 0..30 {
+    for run in 0..few.runs() {
         assert_eq!(made(&few, BASE, run), made(&many, BASE, run));
     }
-    assert_ne!(snapshot(&few, 4).life_h, snapshot(&few, 9).life_h);
+    assert_ne!(snapshot(&few, machines[0][0]).life_h, snapshot(&few, machines[1][0]).life_h);
+}
+
+#[test]
+fn prop_the_rows_up_to_now_tell_nothing_of_the_life() {
+    let plan = |life: &str, observed: &str| {
+        PLAN.replace("every_h = 250", "every_h = { uniform = [60, 120] }")
+            .replace("life_h = 1000", &format!("life_h = {life}\nobserved = {observed}"))
+            .replace("snapshots = 5", "snapshots = 20")
+            .replace("exponent = 2", "exponent = 2\nscatter = 0.5")
+    };
+    let times = |life: &str, observed: &str| {
+        let draws = draws(&plan(life, observed));
+        let mut all = vec![Vec::new(); 6];
+        for run in 0..draws.runs() {
+            let of = snapshot(&draws, run);
+            assert_eq!(of.number, all[of.machine].len());
+            all[of.machine].push(of.time_h);
+        }
+        (all, draws.to_the_end())
+    };
+    let (short, to_the_end) = times("600", "1");
+    let (long, none) = times("60000", "1");
+    let (middle, part) = times("1200", "0.7");
+    assert_eq!([to_the_end, none, part], [6, 0, 0]);
+    for k in 0..6 {
+        // At failure one more; the others are as if it lived for ever.
+        assert_eq!(short[k].last(), Some(&600.0));
+        let regular = short[k].len() - 1;
+        assert!((5..=10).contains(&regular), "{regular}");
+        assert_eq!(short[k][..regular], long[k][..regular]);
+        assert_eq!(long[k].len(), 20);
+        assert_eq!(middle[k][..], long[k][..middle[k].len()]);
+        assert!(middle[k].iter().all(|h| *h < 840.0) && long[k][middle[k].len()] >= 840.0);
+    }
+    // The end of a machine that is out of rows tells nothing either: its failure is not seen.
+    let draws = draws(&plan("60000", "1"));
+    assert!((0..draws.runs()).all(|run| snapshot(&draws, run).is_censored()));
 }
 
 #[test]
@@ -269,10 +321,11 @@ fn prop_machines_that_are_not_seen_until_they_fail_are_censored() {
     let healthy = "[[classes]]\nname = \"healthy\"\ndefects = []\n";
     let plan = PLAN.replace("begins_at = 0.5", "begins_at = 0.5\nobserved = 0.8") + healthy;
     let draws = draws(&plan);
-    let all: Vec<Snapshot> = (0..15).map(|run| snapshot(&draws, run)).collect();
-    assert!(all.iter().all(Snapshot::is_censored) && all[4].time_h == 800.0 && all[4].remaining() == Some(200.0));
+    // 0, 250, 500 and 750 h.
+    let all: Vec<Snapshot> = (0..12).map(|run| snapshot(&draws, run)).collect();
+    assert!(all.iter().all(Snapshot::is_censored) && all[3].time_h == 750.0 && all[3].remaining() == Some(250.0));
     // The third machine stays healthy: it has no life.
-    assert!(all[10..].iter().all(|s| s.state() == State::Healthy && s.life().is_none() && s.remaining().is_none()));
+    assert!(all[8..].iter().all(|s| s.state() == State::Healthy && s.life().is_none() && s.remaining().is_none()));
     assert!(
         snapshot(&super::draws(PLAN), 4).state() == State::Failed && !snapshot(&super::draws(PLAN), 4).is_censored()
     );
@@ -298,6 +351,32 @@ fn regress_what_does_not_fit_a_history_is_refused_with_what_would_do() {
             "begins_at = 0.5",
             "begins_at = { uniform = [0.5, 1.5] }",
             "draws values up to 1.5: out of range; allowed: 0 to 1",
+        ),
+        (
+            "begins_at = 0.5",
+            "begins_at = { uniform = [-0.5, 0.5] }",
+            "draws values from -0.5: out of range; allowed: 0 to 1",
+        ),
+        (
+            "begins_at = 0.5",
+            "begins_at = 1",
+            "history.begins_at = 1: damage would begin at failure, with the length that it has then: nothing grows; allowed: < 1",
+        ),
+        (
+            "begins_mm = 1.0",
+            "begins_mm = 1e300",
+            "history.fails_mm = 5: damage begins with up to 1e300 mm, so that its size would shrink until it fails; allowed: > 1e300 mm",
+        ),
+        ("life_h = 1000", "life_h = 1e8", "history.life_h = 1e8: out of range; allowed: > 0 and <= 1e7 h"),
+        (
+            "every_h = 250\n",
+            "",
+            "history.every_h: missing: a number in h or a distribution is required where `machines` is given",
+        ),
+        (
+            "[vary]",
+            "[vary]\nhistory.life_h = { uniform = [1, 2] }",
+            "vary.history.life_h: how damage grows is no key of a scenario; allowed: this key in [history]",
         ),
         (
             "life_h = 1000",
@@ -328,9 +407,41 @@ fn regress_what_does_not_fit_a_history_is_refused_with_what_would_do() {
         let found = refused(was, is);
         assert!(found.contains(says), "{is}: {found}");
     }
+    let section = "[history.snapshot]\noperation.load_n = [{ uniform = [200, 400] }, 0.0]\n";
+    let found = refusals(&PLAN.replace(section, "snapshot = 5\n"));
+    assert!(found.len() == 1 && found[0].contains("expected a section [history.snapshot]"), "{found:?}");
+    // Of the damage itself: at failure it goes around, or its depths would be lost.
+    let refused = |was: &str, is: &str| {
+        let draws = super::draws(&PLAN.replace(was, is));
+        let (problems, draw) = draws.scenario(BASE, 3).unwrap_err();
+        // What the snapshot should have been is known.
+        assert_eq!(draw.unwrap().snapshot.map(|s| s.state()), (was == "fails_mm = 5.0").then_some(State::Damaged));
+        problems[0].to_string().replace("\n  allowed", "; allowed")
+    };
+    let found = refused("fails_mm = 5.0", "fails_mm = 500.0");
+    assert!(
+        found.contains("history.fails_mm = 500: damage of this length goes once around the outer raceway; allowed: < "),
+        "{found}"
+    );
+    let profile = "shape.profile = { arc_mm = [0, 1, 2, 3], depth_um = [0, 30, 20, 0], width_mm = [2, 2, 2, 2] }";
+    let found = refused("shape.random = { length_mm = 2, width_mm = 3, roughness = 0.9 }", profile);
+    assert!(
+        found.contains("the depths of this profile over its arc would be lost; allowed: a profile without `depth_um`"),
+        "{found}"
+    );
     let draws = super::draws(PLAN);
     let found = draws.scenario(&BASE.replace("0.12", "0.05"), 0).unwrap_err().0;
     let found = found[0].to_string().replace("\n  allowed", "; allowed");
     assert!(found.contains("simulation.duration_s = 0.05: a snapshot of 2 turns of the shaft from the end of its start on at the slowest speed, 6000 r/min; allowed: >= 0.11 s: 8 turns after the start; or a higher speed"), "{found}");
     assert!(draws.notes()[0].starts_with("history.scatter = 0: the lengths of all 6 machines follow the law"));
+}
+
+#[test]
+fn regress_an_outline_that_crosses_itself_is_warned_of() {
+    let bow = "shape.outline = { polygons_mm = [[[-1, -1], [1, 1], [1, -1], [-1, 1]]] }";
+    let plan = PLAN.replace("shape.random = { length_mm = 2, width_mm = 3, roughness = 0.9 }", bow);
+    let draws = draws(&plan);
+    let warnings = |run| draws.scenario(BASE, run).unwrap().0.warnings;
+    assert!(warnings(3).iter().any(|w| w.message.contains("crosses itself")), "{:?}", warnings(3));
+    assert!(warnings(0).is_empty(), "no damage yet: {:?}", warnings(0));
 }

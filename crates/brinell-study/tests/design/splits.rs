@@ -125,6 +125,10 @@ fn prop_what_a_plan_says_in_vain_is_noted() {
         "class \"outer\" has no run: its share, 0.001, is too small for 60 runs",
     );
     noted(&format!("{SECRET}\n{PLAN}"), "secret is given and held_out is 0");
+    noted(
+        &format!("held_out = 0.002\n{SECRET}\n{PLAN}"),
+        "held_out = 0.002 holds out none of 60 runs: each is drawn by chance; with 1497 runs, or with held_out = 0.05, one or more are held out with a chance of 95 %",
+    );
     let split = "[split]\ntest = 0.2\nseverity = [\"defects.0.depth_um\"]\nseverity_range = [1, 100]\n[vary]";
     noted(
         &PLAN.replace("[vary]", split),

@@ -105,6 +105,21 @@ impl Field {
         self
     }
 
+    /// The largest pressure in cells that meet `bounds`, and its s and z: a straight roller's end may press more elsewhere. `None`
+    /// where nothing presses there.
+    fn within(&self, bounds: &Bounds) -> Option<(f64, [f64; 2])> {
+        let cells = |axis: usize, [low, high]: [f64; 2]| {
+            let cell = |x: f64| (x - self.first[axis]) / self.size[axis] + 0.5;
+            let end = |x: f64| x.clamp(0.0, self.cells[axis] as f64) as usize;
+            end(cell(low).floor())..end(cell(high).ceil())
+        };
+        let (along, across) = (cells(0, bounds.s), cells(1, bounds.z));
+        let all = across.flat_map(|row| along.clone().map(move |column| [column, row]));
+        let pressure = |[column, row]: [usize; 2]| self.pressure[row * self.cells[0] + column];
+        let most = all.max_by(|a, b| pressure(*a).total_cmp(&pressure(*b))).filter(|cell| pressure(*cell) > 0.0)?;
+        Some((pressure(most), [0, 1].map(|k| self.first[k] + self.size[k] * most[k] as f64)))
+    }
+
     /// Share of the pressed area whose pressure is above `limit`, Pa.
     pub fn share_above(&self, limit: f64) -> f64 {
         let cells = |least: f64| self.pressure.iter().filter(|p| **p > least).count() as f64;
@@ -121,28 +136,35 @@ pub(super) fn healthy(geometry: &Geometry, delta: f64) -> Option<f64> {
 /// Places between the first and the last edge at the most.
 const PLACES: i64 = 160;
 
-/// Pressures at `delta` (m) where they are largest while the contact passes between two s (m). The place is found on the grid of
-/// [`Tables::Coarse`] in steps of a quarter of the contact's half-width, or longer ones in long damage.
-pub fn largest_pressure(geometry: &Geometry, raster: &Raster, delta: f64, between: [f64; 2]) -> Option<Field> {
+/// Pressures at `delta` (m) where they are largest over damage within `bounds` while the contact passes it. The place is found on
+/// the grid of [`Tables::Coarse`] in steps of a quarter of the contact's half-width, or longer ones in long damage.
+pub(super) fn largest_pressure(geometry: &Geometry, raster: &Raster, delta: f64, bounds: &Bounds) -> Option<Field> {
     let coarse = Window::new(geometry, raster, delta, Tables::Coarse)?;
     let dx = coarse.size[0];
     let reach = geometry.reach(delta.max(0.0));
-    let [first, last] = [((between[0] - reach) / dx).floor() as i64, ((between[1] + reach) / dx).ceil() as i64];
+    let [first, last] = [((bounds.s[0] - reach) / dx).floor() as i64, ((bounds.s[1] + reach) / dx).ceil() as i64];
     let quarter = (0.25 * geometry.half_width(delta + raster.raised()) / dx).round() as i64;
     let step = quarter.max((last - first) / PLACES).max(1);
     let mut largest: Option<(f64, i64)> = None;
-    let mut before = Vec::new();
+    let mut before: Option<(Vec<usize>, Option<Field>)> = None;
     for middle in (first..=last).step_by(step as usize) {
         let window = coarse.grid.window(middle);
-        if window == before {
-            continue;
-        }
-        before = window;
-        if let Some(field) = coarse.field(middle)
-            && largest.is_none_or(|(most, _)| field.largest > most)
+        // What lies under the contact is the same, and so is the pressure, about another middle.
+        let field = match before.take() {
+            Some((same, field)) if same == window => field.map(|field| {
+                let moved = field.middle - middle as f64 * dx;
+                field.seen_from(moved)
+            }),
+            _ => coarse.field(middle),
+        };
+        if let Some((most, _)) = field.as_ref().and_then(|field| field.within(bounds))
+            && largest.is_none_or(|(before, _)| most > before)
         {
-            largest = Some((field.largest, middle));
+            largest = Some((most, middle));
         }
+        before = Some((window, field));
     }
-    pressure_at(geometry, raster, delta, largest?.1 as f64 * dx, Tables::Standard)
+    let field = pressure_at(geometry, raster, delta, largest?.1 as f64 * dx, Tables::Standard)?;
+    let (largest, at) = field.within(bounds)?;
+    Some(Field { largest, at, ..field })
 }

@@ -5,6 +5,7 @@ use super::damage::{Damage, gather, offset};
 use super::error::BuildError;
 use super::field::{self, Field};
 use super::geometry::Geometry;
+use super::raster::Bounds;
 use super::shelf::{self, Key};
 use crate::defect::{Defect, SIDES, Side};
 use crate::effective::{Table, Tilted};
@@ -125,8 +126,9 @@ impl Met<'_> {
     }
 }
 
-/// Pressures under a contact that passes the damage `defects[of]` at the deformation `delta` (m), where they are largest; with all damage
-/// that the contact meets there. s is from the defect's centre. `None` where nothing touches, or the defect does not meet the side.
+/// Pressures under a contact that passes the damage `defects[of]` at the deformation `delta` (m), where they are largest over that damage
+/// and next to its edges (as far as these are rounded); with all damage that the contact meets there. s is from the defect's centre. `None`
+/// where nothing touches, or the defect does not meet the side.
 pub fn pressure_over(
     (defects, of): (&[Defect], usize),
     (bearing, contact): (&Bearing, &Contact),
@@ -143,8 +145,10 @@ pub fn pressure_over(
     let damage = Damage::of(defects, &group, 1e-6 * contact.edge_radius_um);
     let apart = offset(defect, &defects[group[0]]);
     let (first, last) = defect.shape.arc();
-    let between = [first + apart, last + apart];
-    field::largest_pressure(&geometry, &damage.raster, delta, between).map(|field| field.seen_from(apart))
+    let edge = 1e-6 * contact.edge_radius_um;
+    let around = |[low, high]: [f64; 2]| [low - edge, high + edge];
+    let bounds = Bounds { s: around([first + apart, last + apart]), z: around(defect.heights()) };
+    field::largest_pressure(&geometry, &damage.raster, delta, &bounds).map(|field| field.seen_from(apart))
 }
 
 /// The largest pressure of the healthy contact at the deformation `delta` (m), Pa.

@@ -174,6 +174,33 @@ fn hertz_force(of: &Scenario, delta: f64) -> f64 {
 }
 
 #[test]
+fn regress_the_largest_pressure_over_narrow_damage_is_at_the_damage_and_not_at_the_rollers_end() {
+    let of = scenario("NN3007");
+    let groove = |width_mm: f64, axial_offset_mm: f64, depth_um: f64| scenario::Defect {
+        axial_offset_mm,
+        shape: Shape::Rectangle { length_mm: 1.0, width_mm },
+        ..pit_at(90.0, depth_um)
+    };
+    let found = |defect: scenario::Defect| {
+        let defects = Defect::all(&[defect], &of.bearing, &of.contact).unwrap();
+        pressure_over((&defects, 0), (&of.bearing, &of.contact), Side::Outer, 3e-6).unwrap()
+    };
+    for (width, offset) in [(0.1, 0.0), (0.1, 1.5), (2.0, 0.0), (2.0, -0.5)] {
+        let field = found(groove(width, offset, 2.0));
+        // A cell, and the edge's radius.
+        let room = [0, 1].map(|k| field.size[k] + 1e-5);
+        assert!(field.at[0].abs() < 0.5e-3 + room[0], "{width} mm: {:?}", field.at);
+        assert!((field.at[1] - 1e-3 * offset).abs() < 0.5e-3 * width + room[1], "{width} mm: {:?}", field.at);
+        // The grid has the pressure that is told.
+        assert!(field.pressure.contains(&field.largest));
+    }
+    // Beside a scratch the ends of a straight roller press more.
+    let field = found(groove(0.1, 0.0, 0.1));
+    assert!(field.pressure.iter().any(|p| *p > field.largest), "{}", field.largest);
+    assert!(field.at[1].abs() < 0.1e-3 + field.size[1], "{:?}", field.at);
+}
+
+#[test]
 fn prop_pressures_are_counted_from_their_own_defect() {
     let of = scenario("6205");
     let found = |defects: &[scenario::Defect], k: usize| {

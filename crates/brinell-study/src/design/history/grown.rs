@@ -9,7 +9,7 @@ use brinell::model::Model;
 use brinell::scenario::{self, Defect, Scenario, Speed, Surface};
 use brinell::signal::rounded;
 use brinell_damage::plan::{CORNERS, polygons_mm};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Turns of the shaft in a snapshot at least.
 const LEAST_TURNS: f64 = 8.0;
@@ -22,6 +22,10 @@ pub(in crate::design) fn only_defect(scenario: &Scenario) -> Result<Option<&Defe
         [one] if one.shape.file().is_some() => wrong(
             "a history grows a shape that is at hand, and this one is in a file".into(),
             "rectangle, circle, profile, random, grown or outline; `brinell defect` makes an outline of a photo, a drawing or a scan",
+        ),
+        [one] if matches!(one.shape, scenario::Shape::Profile { depth_um: Some(_), .. }) => wrong(
+            "damage grows as an outline of one depth, and the depths of this profile over its arc would be lost".into(),
+            "a profile without `depth_um`: its widths keep their course, and the defect's depth_um is the depth; or rectangle, circle, random, grown, outline",
         ),
         [one] if one.table.is_some() => {
             wrong("a table holds for one size, and a history has many".into(), "a defect without `table`")
@@ -109,6 +113,12 @@ impl Snapshot {
         (scenario, all): (&Scenario, &Defect),
         turning: &Turning,
     ) -> Result<Vec<(&'static str, String)>, Vec<Problem>> {
+        let around = PI * scenario.bearing.diameter_mm(all.on);
+        if self.fails_mm >= around {
+            let message = format!("damage of this length goes once around the {}", all.on.word().replace('-', " "));
+            let problem = Problem::error("history.fails_mm", message).value(self.fails_mm.to_string());
+            return Err(vec![problem.allowed(format!("< {} mm", rounded(around, 4)))]);
+        }
         let shape = Shape::new(&all.shape, 1e-6 * all.depth_um);
         let Some(shape) = shape else {
             return Err(vec![Problem::error("defects", "the shape makes no sense")]);
@@ -133,9 +143,7 @@ impl Snapshot {
         let outline = star.grown(self.length_mm, self.fails_mm, widest, -all.axial_offset_mm);
         let points: Vec<String> = outline.iter().map(|[s, z]| format!("[{s}, {z}]")).collect();
         let depth = match &all.shape {
-            scenario::Shape::DepthMap { .. } | scenario::Shape::Profile { depth_um: Some(_), .. } => {
-                1e6 * Extent::of(&shape, 1e-6 * all.depth_um).depth
-            }
+            scenario::Shape::DepthMap { .. } => 1e6 * Extent::of(&shape, 1e-6 * all.depth_um).depth,
             _ => all.depth_um,
         };
         let depth = depth * (self.length_mm / self.fails_mm).powf(history.depth_exponent);

@@ -17,15 +17,19 @@ pub(super) use grown::{Turning, only_defect};
 pub use law::Law;
 pub use outline::Edge;
 pub use snapshot::{Snapshot, State};
+pub(super) use snapshot::{is_to_the_end, times};
 pub use varied::Varied;
+pub(super) use varied::short;
 
 /// `[history]` of a plan, with how many machines there are.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
     /// How many.
     pub machines: usize,
-    /// Snapshots of each, evenly over the time that it is observed.
+    /// Snapshots of each, at most.
     pub snapshots: usize,
+    /// Running time between snapshots, h.
+    pub every_h: Varied,
     /// How the length grows.
     pub law: Law,
     /// The law's one parameter.
@@ -54,8 +58,9 @@ pub struct History {
 
 impl History {
     /// What is drawn once for each machine: key and what it is drawn from.
-    pub(super) fn drawn(&self) -> [(&'static str, &Varied); 6] {
+    pub(super) fn drawn(&self) -> [(&'static str, &Varied); 7] {
         [
+            ("history.every_h", &self.every_h),
             ("history.begins_mm", &self.begins_mm),
             ("history.fails_mm", &self.fails_mm),
             ("history.life_h", &self.life_h),
@@ -78,9 +83,10 @@ impl History {
     pub fn assumptions(&self) -> String {
         let cap = self.widest_mm.map_or("as far as rolling elements reach".to_owned(), |mm| format!("up to {mm} mm"));
         format!(
-            "{} of the running time with {} = {}, from {} mm, where damage begins (at a share of {} of the life), to {} mm, at which a machine counts \
+            "a snapshot every {} h; {} of the running time with {} = {}, from {} mm, where damage begins (at a share of {} of the life), to {} mm, at which a machine counts \
              as failed; life until then {} h; scatter {} (standard deviation of the logarithm of its increments); {}; the width follows in proportion {cap}, \
              the depth as the length to the power {}; observed until a share of {} of the life",
+            self.every_h,
             self.law.words(),
             self.law.parameter(),
             self.steepness,
@@ -107,8 +113,9 @@ impl History {
         }
         if holds_out && self.observed == Varied::Fixed(1.0) {
             notes.push(
-                "history.observed = 1 with held_out: the last time of each machine is that of its failure, and tells the remaining life of the others; \
-                 history.observed = { uniform = [0.3, 1] } hides it"
+                "history.observed = 1 with held_out: the last row of a machine that is run to failure has its life as time_h, which tells the remaining life at \
+                 the rows before; history.observed = { uniform = [0.3, 1] } ends most machines' rows before, and fewer `snapshots` end them \
+                 at a time that has nothing to do with the life"
                     .to_owned(),
             );
         }

@@ -30,9 +30,42 @@ impl State {
     }
 }
 
-/// Time of a snapshot of a machine that is seen until `end`, h; the last one to the last digit then.
-fn time((number, last): (usize, usize), end: f64) -> f64 {
-    if number == last { end } else { rounded(end * number as f64 / last as f64, DIGITS) }
+/// When a machine is looked at: a plan's interval, which has nothing to do with its life, from new on until it is seen for the
+/// last time. Running times of all snapshots, h; the last one of a machine that is seen to fail is its life to the last digit.
+pub(in crate::design) fn times(history: &History, drawn: &[Value]) -> Vec<f64> {
+    let Drawn { every_h, life_h, observed, .. } = Drawn::of(history, drawn);
+    let end = observed * life_h;
+    let regular = (0..history.snapshots).map(|k| rounded(every_h * k as f64, DIGITS)).take_while(|h| *h < end);
+    let mut times: Vec<f64> = regular.collect();
+    if observed >= 1.0 && times.len() < history.snapshots {
+        times.push(end);
+    }
+    times
+}
+
+/// Whether the last snapshot is at the end of the life.
+pub(in crate::design) fn is_to_the_end(history: &History, drawn: &[Value]) -> bool {
+    times(history, drawn).last() == Some(&Drawn::of(history, drawn).life_h)
+}
+
+/// What a machine's life has drawn.
+struct Drawn {
+    every_h: f64,
+    begins_mm: f64,
+    fails_mm: f64,
+    life_h: f64,
+    begins_at: f64,
+    observed: f64,
+    steepness: f64,
+}
+
+impl Drawn {
+    fn of(history: &History, drawn: &[Value]) -> Self {
+        let mut drawn = drawn.iter();
+        let [every_h, begins_mm, fails_mm, life_h, begins_at, observed, steepness] =
+            history.drawn().map(|(_, value)| value.number(&mut drawn));
+        Self { every_h, begins_mm, fails_mm, life_h, begins_at, observed, steepness }
+    }
 }
 
 /// One snapshot of a history.
@@ -44,14 +77,12 @@ pub struct Snapshot {
     pub number: usize,
     /// Running time since the machine was new, h.
     pub time_h: f64,
-    /// Number of the last snapshot.
-    last: usize,
+    /// Of all snapshots of the machine.
+    times_h: Vec<f64>,
     /// Running time until failure, h.
     pub life_h: f64,
     /// Running time until damage begins, h.
     pub begins_h: f64,
-    /// Share of the life at which the machine is seen for the last time.
-    pub observed: f64,
     /// Length at which the machine counts as failed, mm.
     pub fails_mm: f64,
     /// Length of damage, mm; 0 without.
@@ -75,11 +106,9 @@ impl Snapshot {
         drawn: &[Value],
         places: impl Fn(usize) -> f64,
     ) -> Self {
-        let mut drawn = drawn.iter();
-        let [begins_mm, fails_mm, life_h, begins_at, observed, steepness] =
-            history.drawn().map(|(_, value)| value.number(&mut drawn));
-        let last = history.snapshots - 1;
-        let time_h = time((number, last), observed * life_h);
+        let times_h = times(history, drawn);
+        let Drawn { begins_mm, fails_mm, life_h, begins_at, steepness, .. } = Drawn::of(history, drawn);
+        let time_h = times_h.get(number).copied().unwrap_or(f64::NAN);
         let begins_h = rounded(begins_at * life_h, DIGITS);
         let is_failed = time_h >= life_h;
         let grown = match is_failed {
@@ -97,10 +126,9 @@ impl Snapshot {
             machine,
             number,
             time_h,
-            last,
+            times_h,
             life_h,
             begins_h,
-            observed,
             fails_mm,
             length_mm: rounded(length_mm, DIGITS),
             on,
@@ -120,7 +148,7 @@ impl Snapshot {
 
     /// Whether its failure is not seen.
     pub fn is_censored(&self) -> bool {
-        self.on.is_none() || self.observed < 1.0
+        self.on.is_none() || self.times_h.last().is_none_or(|last| *last < self.life_h)
     }
 
     /// A number of a machine that fails.
@@ -156,7 +184,7 @@ impl Snapshot {
     /// Turns of the shaft up to here, where each snapshot's speed (r/min) holds from the one before it.
     pub(in crate::design) fn turned(&self, speeds: &[f64]) -> [f64; 2] {
         let each = (1..=self.number).map(|k| {
-            let [from, to] = [k - 1, k].map(|k| time((k, self.last), self.observed * self.life_h));
+            let [from, to] = [self.times_h[k - 1], self.times_h[k]];
             [to - from, (to - from.max(self.begins_h)).max(0.0)].map(|h| 60.0 * h * speeds[k].abs())
         });
         let sum = each.fold([0.0, 0.0], |sum, turns| [sum[0] + turns[0], sum[1] + turns[1]]);

@@ -33,11 +33,19 @@ impl Varied {
     }
 }
 
+/// A number as a plan has it: without a row of noughts.
+pub(in crate::design) fn short(x: f64) -> String {
+    match x.abs() {
+        0.0 | 1e-4..1e7 => x.to_string(),
+        _ => format!("{x:e}"),
+    }
+}
+
 impl fmt::Display for Varied {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self, self.ends()) {
-            (Self::Fixed(x), _) => write!(f, "{x}"),
-            (Self::Drawn(_), [low, high]) => write!(f, "{low} to {high}"),
+            (Self::Fixed(x), _) => f.write_str(&short(*x)),
+            (Self::Drawn(_), [low, high]) => write!(f, "{} to {}", short(low), short(high)),
         }
     }
 }
@@ -61,13 +69,13 @@ impl ValueType for Varied {
         if !distribution.is_numeric() {
             return Err(Misfit::new("values that are no numbers", f64::expected(spec)).in_element(node));
         }
-        for end in distribution.ends() {
+        for (end, way) in distribution.ends().into_iter().zip(["from", "up to"]) {
             if end.is_infinite() {
                 let allowed = "within = [low, high] beside `normal`";
                 return Err(Misfit::new("the distribution has no ends", allowed).in_element(node));
             }
             f64::read(&Node { value: Toml::Float(end), ..node.clone() }, spec).map_err(|m| {
-                Misfit::new(format!("draws values up to {end}: {}", m.message), m.allowed).in_element(node)
+                Misfit::new(format!("draws values {way} {}: {}", short(end), m.message), m.allowed).in_element(node)
             })?;
         }
         Ok(Self::Drawn(distribution))

@@ -7,6 +7,9 @@ use brinell::document::reading::{Keys, Spec, key, stated};
 /// Runs of a plan at most: what each of them draws is kept in memory.
 pub(super) const MOST_RUNS: f64 = 1e6;
 
+/// Longest life, h: a thousand years.
+const LONGEST_H: f64 = 1e7;
+
 /// Where `[history]` has a meaning.
 const CASE: &str = "`machines` is given";
 
@@ -28,8 +31,10 @@ impl HistoryKeys {
         );
         let has = self.machines.is_some();
         k.only_where(key("runs", "how many runs").from(1.0).to(MOST_RUNS), !has, "`machines` is not given", runs);
-        let spec =
-            key("snapshots", "runs of each machine, evenly over the time that it is observed, both ends included");
+        let spec = key(
+            "snapshots",
+            "runs of each machine at most: from new on one every history.every_h, and one at its failure",
+        );
         k.only_where(spec.from(2.0).to(MOST_RUNS), has, CASE, &mut self.snapshots);
     }
 
@@ -40,6 +45,7 @@ impl HistoryKeys {
         let mut h = History {
             machines: self.machines.unwrap_or(1),
             snapshots: self.snapshots.max(2),
+            every_h: blank(),
             law: Law::default(),
             steepness: blank(),
             begins_mm: blank(),
@@ -62,6 +68,12 @@ impl HistoryKeys {
 
 fn keys<K: Keys>(k: &mut K, h: &mut History, has: bool) {
     let case = (has, CASE);
+    k.only_where(
+        key("every_h", "running time between snapshots, which tells nothing of the life").above(0.0).to(LONGEST_H),
+        has,
+        CASE,
+        &mut h.every_h,
+    );
     k.only_where(key("law", "law of growth of the length, an assumption"), has, CASE, &mut h.law);
     let is_power = h.law == Law::Power;
     let (mut exponent, mut rate) = (h.steepness.clone(), h.steepness.clone());
@@ -88,7 +100,7 @@ fn keys<K: Keys>(k: &mut K, h: &mut History, has: bool) {
         &mut h.begins_mm,
     );
     k.only_where(length("fails_mm", "length at which the machine counts as failed"), has, CASE, &mut h.fails_mm);
-    k.only_where(length("life_h", "running time until then"), has, CASE, &mut h.life_h);
+    k.only_where(key("life_h", "running time until then").above(0.0).to(LONGEST_H), has, CASE, &mut h.life_h);
     k.only_where(
         key("begins_at", "share of the life at which damage begins; the machine is healthy before").from(0.0).to(1.0),
         has,

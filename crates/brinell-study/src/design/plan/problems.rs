@@ -3,7 +3,7 @@
 use super::history::MOST_RUNS;
 use super::{Class, OutOfRange, Plan, Split};
 use crate::design::distribution::Distribution;
-use crate::design::history::History;
+use crate::design::history::{History, short};
 use crate::design::stream::Secret;
 use crate::design::template::Template;
 use brinell::document::reading::{Finder, brief_path, path_parts};
@@ -85,11 +85,17 @@ impl Checker<'_> {
     fn history(&mut self, history: &History) {
         let runs = self.plan.runs as f64;
         if runs > MOST_RUNS {
-            let message = format!("{} machines with {} snapshots are {runs} runs", history.machines, history.snapshots);
+            let message =
+                format!("{} machines with {} snapshots are up to {runs} runs", history.machines, history.snapshots);
             self.add("machines", &history.machines.to_string(), message, &format!("at most {MOST_RUNS} runs"));
+        }
+        if history.begins_at.ends()[1] >= 1.0 {
+            let message = "damage would begin at failure, with the length that it has then: nothing grows";
+            self.add("history.begins_at", &history.begins_at.to_string(), message.into(), "< 1, such as 0.9");
         }
         let ([_, begins], [fails, _]) = (history.begins_mm.ends(), history.fails_mm.ends());
         if begins >= fails {
+            let begins = short(begins);
             let message = format!("damage begins with up to {begins} mm, so that its size would shrink until it fails");
             let allowed = format!("> {begins} mm, or a smaller history.begins_mm");
             self.add("history.fails_mm", &history.fails_mm.to_string(), message, &allowed);
@@ -106,7 +112,8 @@ impl Checker<'_> {
         if !matches!(history.snapshot, Template::Table(_)) {
             self.add("history.snapshot", "", "expected a section [history.snapshot]".into(), "keys of a scenario");
         }
-        for (path, _) in history.snapshot.settings() {
+        let is_table = matches!(history.snapshot, Template::Table(_));
+        for (path, _) in history.snapshot.settings().into_iter().filter(|_| is_table) {
             let at = format!("history.snapshot.{path}");
             if path.starts_with("bearing") || path.starts_with("defects") {
                 let message = "a machine keeps its bearing, and its damage grows by [history]";
@@ -245,7 +252,18 @@ impl Checker<'_> {
     /// The keys that vary, one by one.
     fn settings(&mut self) {
         for (what, template) in self.plan.templates() {
-            for (path, _) in template.settings() {
+            let is_table = matches!(template, Template::Table(_));
+            for (path, _) in template.settings().into_iter().filter(|_| is_table) {
+                if path.split('.').next() == Some("history") {
+                    let message = "how damage grows is no key of a scenario".to_owned();
+                    self.add(
+                        &format!("{what}.{path}"),
+                        "",
+                        message,
+                        "this key in [history]: any number there may be a distribution",
+                    );
+                    continue;
+                }
                 if let Err(message) = path_parts(&path) {
                     self.add(&format!("{what}.{path}"), "", message, "");
                 }
