@@ -53,7 +53,9 @@ pub use version::COMMIT;
 /// It is for a process of its own: it raises that process's limit of open files to what the system allows, ignores
 /// SIGXFSZ, and some commands listen for Ctrl-C, the second of which ends the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
-    COMMIT.map(made_by::built_from);
+    if let Some(commit) = COMMIT {
+        made_by::built_from(commit);
+    }
     hear_of_full_files();
     brinell_damage::keep_tables();
     allow_open_files();

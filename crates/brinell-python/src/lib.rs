@@ -50,7 +50,9 @@ mod _brinell {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        brinell_cli::COMMIT.map(brinell::made_by::built_from);
+        if let Some(commit) = brinell_cli::COMMIT {
+            brinell::made_by::built_from(commit);
+        }
         brinell_damage::keep_tables();
         let py = module.py();
         module.add("ScenarioError", py.get_type::<errors::ScenarioError>())?;
