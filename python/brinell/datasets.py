@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from brinell import _brinell, tables
+from brinell.analysis import Analysis, analyze
 from brinell.arguments import jobs_of, whole_of
 from brinell.scenario import Scenario, ScenarioWarning
 
@@ -301,6 +302,38 @@ class DataSet:
         for row in _rows(frame):
             return row
         raise KeyError(f"run {number}: not in the files that are there, which hold {len(self)} runs")
+
+    def analyze(self, run: int, signal: str | None = None, **options: Any) -> Analysis:
+        """What `brinell.analyze` finds in a run: its signal from ``analysed_from_s`` on, with its rate, unit, speed and bearing, as one that a simulation made.
+
+        Parameters
+        ----------
+        run : int
+            The number of the run, from 0.
+        signal : str, optional
+            The column; by default what the sensor gives, ``sensor_out``, or its acceleration nearer to the load.
+        **options
+            As of `brinell.analyze`. Of a run with held-out labels, whose scenario lies apart, ``bearing`` and ``speed_rpm`` are needed.
+        """
+        row = self[run]
+        if isinstance(row.get("scenario"), str):
+            scenario = Scenario._of(_brinell.Scenario.parse(row["scenario"]), quiet=True)
+            speed = scenario["operation.speed_rpm"]
+            options = {"bearing": scenario} | ({} if isinstance(speed, list) else {"speed_rpm": speed}) | options
+            x, y = scenario["operation.load_n"]
+        else:
+            x, y = 1.0, 0.0
+        if signal is None:
+            near = ["sensor_ay", "sensor_ax"] if abs(y) > abs(x) else ["sensor_ax", "sensor_ay"]
+            there = [name for name in ["sensor_out", *near] if row.get(name) is not None]
+            if not there:
+                raise ValueError(f"signal: run {run} has neither sensor_out nor sensor_ax nor sensor_ay; name a column of signals")
+            signal = there[0]
+        elif row.get(signal) is None:
+            _one_of("signal", signal, [name for name, value in row.items() if hasattr(value, "dtype")])
+        units = {column["name"]: column["unit"] for column in self._known().get("columns", [])}
+        samples = row[signal][round(row["analysed_from_s"] * row["sample_rate_hz"]) :]
+        return analyze(samples, **({"rate_hz": row["sample_rate_hz"], "unit": units.get(signal), "simulated": True} | options))
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         """Runs as by number, one file in memory at a time; where runs are split, file by file, and so not in order."""

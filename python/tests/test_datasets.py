@@ -407,7 +407,7 @@ def test_prop_nothing_but_the_signal_tells_a_label(tmp_path, examples):
     (tmp_path / "plan.toml").write_text(LEAKS)
     brinell.Plan(tmp_path / "plan.toml").run(tmp_path / "data")
     rows = pandas.concat([pandas.read_parquet(file).assign(place=lambda r: range(len(r))) for file in sorted((tmp_path / "data/runs").glob("*.parquet"))], ignore_index=True)
-    held = rows["split"] == "held-out"
+    held = rows["split"] == "held_out"
     beside = [c for c in rows if rows.loc[held, c].notna().all() and c not in ("sensor_ax", "split")]
     assert "class" not in beside and {"run", "speed_rpm", "operation.load_n.0"} <= set(beside)
 
@@ -468,3 +468,21 @@ def test_prop_runs_are_found_by_number_and_by_split(tmp_path, examples):
         data[12]
     with pytest.raises(TypeError, match="run = 'a': expected a whole number"):
         data["a"]
+
+
+def test_xval_a_run_of_a_data_set_is_analysed_as_its_simulation(plan, tmp_path):
+    data = plan(runs=4, per_file=4, duration=1.0).run(tmp_path / "data")
+    rows = [data[run] for run in range(len(data))]
+    whole = [row for row in rows if isinstance(row["scenario"], str)]
+    assert whole
+    for row in whole:
+        signal = row["sensor_ax"][round(row["analysed_from_s"] * row["sample_rate_hz"]) :]
+        scenario = brinell.Scenario.from_toml(row["scenario"])
+        known = {"rate_hz": row["sample_rate_hz"], "unit": "m/s^2", "bearing": scenario, "speed_rpm": scenario["operation.speed_rpm"]}
+        found = data.analyze(row["run"])
+        assert found.verdict == brinell.analyze(signal, simulated=True, **known).verdict
+        assert data.analyze(row["run"], "sensor_ay", simulated=False).verdict == brinell.analyze(
+            row["sensor_ay"][-len(signal) :], **known
+        ).verdict
+    with pytest.raises(ValueError, match='signal: there is no "sensor_az"'):
+        data.analyze(whole[0]["run"], "sensor_az")

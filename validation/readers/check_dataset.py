@@ -41,7 +41,7 @@ for entry in about["files"]:
     part = pd.read_parquet(folder / entry["path"], columns=["run", "split"])
     assert (part.split == entry["split"]).all() and part.run.is_monotonic_increasing
 assert {s["name"]: s["runs"] for s in about["splits"]} == runs.split.value_counts().to_dict()
-held = runs.split == "held-out"
+held = runs.split == "held_out"
 labels = pd.read_parquet(folder / "held_out")
 assert labels.run.tolist() == runs.run[held].tolist() and 0 < held.sum() < len(runs)
 assert runs["class"][held].isna().all() and runs["class"][~held].notna().all()
@@ -63,8 +63,7 @@ for entry in about["files"]:
     assert len(whole_file) == entry["rows"] and len(whole_file.sensor_ax[0]) == 1280
 with tempfile.TemporaryDirectory() as cache:
     loaded = datasets.load_dataset(str(folder), cache_dir=cache)
-    names = {"held-out": "held_out"}
-    assert {name: split.num_rows for name, split in loaded.items()} == {names.get(s["name"], s["name"]): s["runs"] for s in about["splits"]}
+    assert {name: split.num_rows for name, split in loaded.items()} == {s["name"]: s["runs"] for s in about["splits"]}
     assert len(loaded["train"][0]["sensor_ax"]) == 1280
 card = mlcroissant.Dataset(jsonld=str(folder / "croissant.json"))
 assert not card.metadata.issues.errors

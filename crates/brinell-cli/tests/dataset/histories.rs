@@ -254,7 +254,7 @@ fn prop_of_a_held_out_machine_no_row_tells_its_life() {
         if !path.exists() {
             break;
         }
-        apart.extend(rows(&path).into_iter().filter(|row| text(row, "split").unwrap() == "held-out"));
+        apart.extend(rows(&path).into_iter().filter(|row| text(row, "split").unwrap() == "held_out"));
     }
     assert!(!apart.is_empty() && apart.len() % 2 == 0, "whole machines: {}", apart.len());
     for row in &apart {

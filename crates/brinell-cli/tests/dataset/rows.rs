@@ -158,12 +158,12 @@ fn prop_held_out_labels_lie_apart() {
         let open = rows(&out.join(format!("runs/part-0000{part}.parquet")));
         let labels = out.join(format!("held_out/part-0000{part}.parquet"));
         // Runs of a file are for one thing.
-        assert_eq!(labels.exists(), file["split"] == "held-out");
+        assert_eq!(labels.exists(), file["split"] == "held_out");
         assert!(open.iter().all(|row| text(row, "split").as_deref() == file["split"].as_str()));
         let held = if labels.exists() { rows(&labels) } else { Vec::new() };
         let mut held = held.iter();
         for row in &open {
-            let is_held = text(row, "split").as_deref() == Some("held-out");
+            let is_held = text(row, "split").as_deref() == Some("held_out");
             for name in secret {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
@@ -196,7 +196,7 @@ fn prop_held_out_labels_lie_apart() {
     // How many bytes the labels take would tell too: a damaged run has more.
     assert!(about["held_out"].get("files").is_none(), "{}", about["held_out"]);
     for (part, file) in parts.iter().enumerate() {
-        if file["split"] == "held-out" {
+        if file["split"] == "held_out" {
             let labels = fs::read(out.join(format!("held_out/part-0000{part}.parquet"))).unwrap();
             assert!(!sidecar.contains(&format!(" {}", labels.len())), "{part}");
         }

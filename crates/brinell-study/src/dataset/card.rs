@@ -38,19 +38,11 @@ fn one_line(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Name of a split where names are letters, digits and `_`. Data that are not divided are called `train` there.
-fn split_name(split: &str) -> String {
-    match split {
-        "open" => "train".into(),
-        other => other.replace('-', "_"),
-    }
-}
-
 /// Paths of the files of each split.
 fn paths(about: &About) -> Vec<(String, Vec<&str>)> {
     let mut splits: Vec<(String, Vec<&str>)> = Vec::new();
     for file in about.listed() {
-        let split = split_name(file.split.as_deref().unwrap_or_default());
+        let split = file.split.clone().unwrap_or_default();
         match splits.last_mut() {
             Some((last, paths)) if *last == split => paths.push(&file.path),
             _ => splits.push((split, vec![&file.path])),
@@ -87,7 +79,7 @@ fn counts(about: &About) -> String {
     let fails = runs(about).1 > 0;
     let failed = |count: u64| if fails { format!(" {count} |") } else { String::new() };
     let (head, rule) = if fails { (" failed, no signal |", " --- |") } else { ("", "") };
-    let heads: String = open.iter().map(|split| format!(" {} |", split_name(&split.name))).collect();
+    let heads: String = open.iter().map(|split| format!(" {} |", split.name)).collect();
     let mut card = format!("| class | label |{heads}{head}\n| --- | --- |{}{rule}\n", " --- |".repeat(open.len()));
     let at = |counts: &[u64], k: usize| counts.get(k).copied().unwrap_or(0);
     for (k, class) in about.classes.iter().enumerate() {
@@ -99,7 +91,7 @@ fn counts(about: &About) -> String {
     card += &format!("\n| split | runs |{head}\n| --- | --- |{rule}\n");
     for split in &about.splits {
         let without = split.failed.unwrap_or(0);
-        card += &format!("| {} | {} |{}\n", split_name(&split.name), split.runs - without, failed(without));
+        card += &format!("| {} | {} |{}\n", split.name, split.runs - without, failed(without));
     }
     let names: Vec<String> = about.classes.iter().map(|class| one_line(&class.name)).collect();
     for words in tally.words(&names) {

@@ -112,7 +112,7 @@ pub(crate) fn is_failed(cells: &[Cell]) -> bool {
 #[rustfmt::skip]
 const HEAD: [Fixed; 3] = [
     ("run", "1", "index of the run, from 0", Whole(|r| Some(r.index))),
-    ("split", "1", "train, validation or test; open where the plan does not divide; held-out where the labels are in files of their own",
+    ("split", "1", "train, validation or test; all train where the plan does not divide; held_out where the labels are in files of their own",
         Words(|r| Some(r.draws.part(r.index).word().into()))),
     ("status", "1", "complete or failed", Words(|r| Some(if r.failed.is_some() { "failed" } else { "complete" }.into()))),
 ];

@@ -176,7 +176,7 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
         put(&folder.secret(), &text)?;
         about.held_out = Some(Held::Made {
             plan: Sum { path: SECRET_PATH.into(), sha256: digest(&text) },
-            meaning: "labels, truth and plan of the runs with split = held-out: keep this folder to yourself, and join by the column `run`".into(),
+            meaning: "labels, truth and plan of the runs with split = held_out: keep this folder to yourself, and join by the column `run`".into(),
         });
     }
     let (total, failed) = (about.total(), files.iter().filter_map(|file| file.failed).sum());

@@ -11,9 +11,7 @@ use std::collections::BTreeMap;
 /// What a run is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// Not divided: every run whose labels are open.
-    Open,
-    /// To train with.
+    /// To train with; all of a data set that is not divided.
     Train,
     /// To choose with.
     Validation,
@@ -25,16 +23,15 @@ pub enum Part {
 
 impl Part {
     /// All, in the order of the files.
-    pub const ALL: [Part; 5] = [Part::Open, Part::Train, Part::Validation, Part::Test, Part::HeldOut];
+    pub const ALL: [Part; 4] = [Part::Train, Part::Validation, Part::Test, Part::HeldOut];
 
     /// As the column `split` says it.
     pub fn word(self) -> &'static str {
         match self {
-            Part::Open => "open",
             Part::Train => "train",
             Part::Validation => "validation",
             Part::Test => "test",
-            Part::HeldOut => "held-out",
+            Part::HeldOut => "held_out",
         }
     }
 }
@@ -57,14 +54,8 @@ pub(super) fn parts(
     conditions: impl Fn(usize, &[String]) -> Vec<String>,
     numbers: impl Fn(usize, &[String]) -> Vec<f64>,
 ) -> Result<(Vec<Part>, usize), Vec<Problem>> {
-    let mut parts: Vec<Part> = places
-        .iter()
-        .map(|place| match (place.number == APART, &plan.split) {
-            (true, _) => Part::HeldOut,
-            (false, None) => Part::Open,
-            (false, Some(_)) => Part::Train,
-        })
-        .collect();
+    let mut parts: Vec<Part> =
+        places.iter().map(|place| if place.number == APART { Part::HeldOut } else { Part::Train }).collect();
     let Some(split) = &plan.split else {
         return Ok((parts, 0));
     };
