@@ -132,23 +132,10 @@ export function showState(side) {
     bad = side.problems.length > 0,
     node = byId("state");
   const made = side.live.computing,
-    table = made === null ? "" : `table is being computed${made ? `, ${made} s` : ""}`;
-  const words =
-    state === "lost"
-      ? "engine lost"
-      : side.live.working
-        ? (state === "running" && table) || "working"
-        : state === "running"
-          ? `running ${side.percent} %`
-          : state;
-  node.textContent =
-    words !== "live"
-      ? words
-      : bad
-        ? "live, last good one"
-        : side.opened.quick
-          ? ["live, quick tables", table].filter(Boolean).join(": ")
-          : words;
+    table = made === null ? "" : `table is being computed${made ? `, ${made} s` : ""}`,
+    live = bad ? "live, last good one" : table || (side.opened.quick ? "live, quick tables" : state),
+    words = /** @type {Record<string, string>} */ ({ lost: "engine lost", live, running: `running ${side.percent} %` });
+  node.textContent = side.live.working && state !== "lost" ? (state === "running" && table) || "working" : (words[state] ?? state);
   node.title = side.opened.quick ? "Damage acts by quick tables until the scenario's own are made" : "";
   node.dataset.state = state;
   node.toggleAttribute("data-bad", bad);

@@ -42,8 +42,8 @@ describe("the page in use", () => {
               side = globalThis.brinellStudio.sides.find((one) => one.name === name);
             return (
               data?.second &&
-              data.values === side.spectra.envelope.values &&
-              data.lines === side.spectra.lines &&
+              data.values === side.equal?.envelope.values &&
+              data.lines === side.equal.lines &&
               data.names[0].startsWith(name)
             );
           },
@@ -76,7 +76,7 @@ describe("the page in use", () => {
 
   it("keeps notices in one line and the verdict in sight", async () =>
     on({}, async (page) => {
-      // Load, draw, share and run each have something to say, and somebody else's words are long.
+      // Each of these has something to say.
       await page.selectOption("#preset", "bearing:NU2205");
       await page.click("#load");
       await page.waitForSelector('[data-kind="kept"]');

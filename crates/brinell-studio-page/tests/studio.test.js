@@ -293,7 +293,7 @@ describe("the page", () => {
       });
       await page.click('[data-tool="circle"]');
       await drag(page, [0.5, 0.5], [0.51, 0.5]);
-      await says(page, /^live, quick tables: table is being computed, [1-9]\d* s$/);
+      await says(page, /^table is being computed, [1-9]\d* s$/);
       assert.match(await page.textContent("footer .note"), /^live, quick tables/);
       await page.click("#run");
       await says(page, /^table is being computed/);
