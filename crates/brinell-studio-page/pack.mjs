@@ -121,8 +121,8 @@ const all = modules(entries);
 const engine = options["without-engine"] ? null : readFileSync(wasm);
 const before = engine ? await stored(new Uint8Array(engine)) : null;
 mkdirSync(out, { recursive: true });
-/** Compressed, as text. @param {string | Buffer} data */
-const packed = (data) => gzipSync(data, { level: 9 }).toString("base64");
+/** Compressed, as text: in blocks of zlib's level 7, of which the engine takes 6 kB less than of its default. @param {string | Buffer} data */
+const packed = (data) => gzipSync(data, { level: 9, memLevel: 7 }).toString("base64");
 
 // Runs before any module: inflates them and says where they are. An address drops tabs and line ends, and ends at #.
 const start = `

@@ -9,7 +9,7 @@ use brinell::scenario::{Defect, DefectTable, DepthGrid, ScanFile, ScanForm, Scen
 use brinell_io::LARGEST_TEXT;
 
 use crate::form_doubts::form_doubts;
-use crate::{DamageError, DepthMap, FileKind, Form, Polygons, read_depth_map};
+use crate::{DamageError, DepthMap, FileKind, Form, Traced, read_depth_map};
 
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
@@ -252,6 +252,15 @@ pub struct ReadShape {
     pub threshold: Option<f64>,
     /// The curved form that was taken off a scan.
     pub form: Option<Form>,
+    /// Outlines in an image, pixels from its upper left corner.
+    pub rings_px: Vec<Vec<[f64; 2]>>,
+}
+
+impl ReadShape {
+    /// Without a word about it.
+    fn of(shape: Shape) -> Self {
+        Self { shape, warnings: Vec::new(), notes: Vec::new(), threshold: None, form: None, rings_px: Vec::new() }
+    }
 }
 
 /// Reads the file of one shape; a shape without a file comes back as it is.
@@ -267,18 +276,16 @@ fn read_noting(shape: &Shape, folder: &Path) -> Result<ReadShape, String> {
 /// # Errors
 /// In words.
 pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> {
-    let as_it_is =
-        || ReadShape { shape: shape.clone(), warnings: Vec::new(), notes: Vec::new(), threshold: None, form: None };
     let Some(file) = shape.file() else {
-        return Ok(as_it_is());
+        return Ok(ReadShape::of(shape.clone()));
     };
     if bytes.is_empty() {
         return Err("the file is empty".into());
     }
     let kind = FileKind::check(file, bytes).map_err(|e| e.to_string())?;
-    let read: Result<Polygons, DamageError> = match shape {
-        Shape::Image(image) => crate::read_image(bytes, image),
-        Shape::Svg(drawing) => crate::read_svg(bytes, drawing),
+    let read: Result<Traced, DamageError> = match shape {
+        Shape::Image(image) => crate::trace_image(bytes, image),
+        Shape::Svg(drawing) => crate::read_svg(bytes, drawing).map(|polygons| Traced { polygons, ..Traced::default() }),
         Shape::Scan(scan) => {
             let DepthMap { grid, warnings, notes, form } =
                 read_depth_map(bytes, Some(kind), scan).map_err(|e| e.to_string())?;
@@ -286,22 +293,21 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
             let with_hints = |error: String| [&[error], &warnings[..]].concat().join("; ");
             let doubt = doubt(&grid, scan.remove_form).map_err(with_hints)?;
             return Ok(ReadShape {
-                shape: cut_out(&grid).map_err(with_hints)?,
                 warnings: warnings.iter().cloned().chain(doubt).collect(),
                 notes,
-                threshold: None,
                 form,
+                ..ReadShape::of(cut_out(&grid).map_err(with_hints)?)
             });
         }
-        _ => return Ok(as_it_is()),
+        _ => return Ok(ReadShape::of(shape.clone())),
     };
-    let polygons = read.map_err(|e| e.to_string())?;
+    let Traced { polygons, rings_px, .. } = read.map_err(|e| e.to_string())?;
     Ok(ReadShape {
-        shape: Shape::Outline { polygons_mm: polygons.polygons_mm },
         warnings: polygons.warnings,
         notes: polygons.notes,
         threshold: polygons.threshold,
-        form: None,
+        rings_px,
+        ..ReadShape::of(Shape::Outline { polygons_mm: polygons.polygons_mm })
     })
 }
 

@@ -8,6 +8,10 @@ const WINDOW_S = 0.1;
 const WAVE_MS = 50,
   STILL_MS = 1000;
 
+/** The spectra that are shown: of two bearings those of equally many samples, until there are some the first one's. @param {Side} side @param {Side | undefined} other */
+const paired = (side, other) =>
+  other && side.equal && side.equal.samples === other.equal?.samples ? [side.equal, other.equal] : [side.spectra, undefined];
+
 export class CurveViews {
   #wave = -Infinity;
   #views = /** @type {any[]} */ (
@@ -25,11 +29,12 @@ export class CurveViews {
    */
   draw(side, other, healthy, measured, now) {
     const [waveform, spectrum, envelope] = this.#views,
-      inputs = [side, other, side.spectra, other?.spectra, healthy, measured];
+      [own, beside] = paired(side, other),
+      inputs = [side, other, own, beside, healthy, measured];
     if (inputs.some((v, k) => v !== this.#shown[k])) {
       this.#shown = inputs;
-      spectrum.data = this.#spectrum(side, other, healthy, measured, "spectrum");
-      envelope.data = this.#spectrum(side, other, healthy, measured, "envelope");
+      spectrum.data = this.#spectrum(side, other, own, beside, healthy, measured, "spectrum");
+      envelope.data = this.#spectrum(side, other, own, beside, healthy, measured, "envelope");
     }
     if (now - this.#wave < (still() ? STILL_MS : WAVE_MS)) return false;
     this.#wave = now;
@@ -70,12 +75,12 @@ export class CurveViews {
     };
   }
 
-  /** @param {Side} side @param {Side | undefined} other @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
-  #spectrum(side, other, healthy, measured, kind) {
-    const got = side.spectra?.[kind];
+  /** @param {Side} side @param {Side | undefined} other @param {any} own @param {any} theirs @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
+  #spectrum(side, other, own, theirs, healthy, measured, kind) {
+    const got = own?.[kind];
     if (!got) return null;
     const curve = (/** @type {any} */ one) => (one?.values?.length ? { x0: 0, dx: one.df, values: one.values } : null),
-      { lines } = side.spectra;
+      { lines } = own;
     // On one axis only what has its unit; a measured signal then takes the other bearing's place.
     const beside = measured?.unit === side.opened.unit ? curve(measured[kind]) : null;
     const names = beside
@@ -89,7 +94,7 @@ export class CurveViews {
       lines,
       band_hz: got.band_hz,
       behind: side.damage.length ? curve(healthy?.[kind]) : null,
-      second: beside ?? curve(other?.spectra?.[kind]),
+      second: beside ?? curve(theirs?.[kind]),
       names,
       stored: "stored" in side,
     };

@@ -5,7 +5,7 @@ import { short } from "./chart.js";
 import { h } from "./dom.js";
 import { defectSpecs } from "./schema.js";
 import { Raceway } from "./raceway.js";
-import { notice } from "./readout.js";
+import { notice } from "./notices.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */
 /** @typedef {import("./tools.js").Request} Request */
@@ -451,10 +451,16 @@ export class DamagePanel {
     this.#asking = false;
   }
 
-  /** Damage from a file, in the middle of what is shown. @param {any} shape @param {number} [depth] */
-  place(shape, depth) {
-    const load = this.surface === "outer-raceway" ? ((this.raceway.loadDeg ?? 0) / 360) * this.#turn : 0;
-    this.#put({ shape, ...(depth ? { depth_um: depth } : {}) }, load, 0, this.#begin());
+  /** Damage from a file, in the middle of what is shown. @param {any} shape @param {boolean} alone  in the place of what is there */
+  place(shape, alone) {
+    const load = this.surface === "outer-raceway" ? ((this.raceway.loadDeg ?? 0) / 360) * this.#turn : 0,
+      gesture = this.#begin();
+    gesture.index = null;
+    if (alone)
+      this.owner.store().change((s) => {
+        s.defects = [];
+      }, gesture.id);
+    this.#put({ shape }, load, 0, gesture);
     this.#gesture = null;
     this.update();
     this.raceway.reveal(this.selected);

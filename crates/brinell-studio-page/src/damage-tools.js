@@ -1,7 +1,7 @@
 // The buttons and boxes of the panel over the raceway: tools with their hints, numbers with their limits.
 import { short } from "./chart.js";
 import { numberInput, numberOf } from "./dom.js";
-import { notice } from "./readout.js";
+import { notice } from "./notices.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */
 

@@ -74,6 +74,9 @@ export function stepped(from, way, step) {
   return Number((from + way * (size ? Math.min(step, 10 ** Math.floor(Math.log10(size))) : step)).toPrecision(12));
 }
 
+/** Damaged places, in words. @param {number} count */
+export const places = (count) => `${count} ${count === 1 ? "place" : "places"}`;
+
 /** @param {string} unit */
 export const spelled = (unit) =>
   unit

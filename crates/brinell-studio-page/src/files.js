@@ -2,14 +2,17 @@
 import { Refused } from "./answers.js";
 import { Field } from "./controls.js";
 import { short } from "./chart.js";
-import { byId, h } from "./dom.js";
+import { byId, h, places } from "./dom.js";
 import { hasToken } from "./engine.js";
 import { asked, line } from "./measured.js";
-import { notice } from "./readout.js";
+import { notice } from "./notices.js";
+import { Photo } from "./photo.js";
 import { fileSpecs } from "./schema.js";
 import { LINK_LIMIT, pathOf, toLink } from "./state.js";
 
 const LARGEST = 1 << 28;
+const ADD = "Add to the damage",
+  ALONE = "Replace the damage";
 const KINDS = /** @type {const} */ ({ photo: "image", svg: "svg", depth: "depth_map" });
 const SHOWN = new Set([
   "mm_per_pixel",
@@ -89,13 +92,16 @@ function preview(shape) {
  * @param {"photo" | "svg" | "depth"} kind
  * @param {string} name
  * @param {Uint8Array<ArrayBuffer>} bytes
+ * @param {number} there  damaged places that the bearing has already
+ * @returns {Promise<{shape: any, alone: boolean} | null>}  alone: in the place of what is there
  */
-export async function shapeOf(ask, schema, kind, name, bytes) {
+export async function shapeOf(ask, schema, kind, name, bytes, there) {
   /** @type {Record<string, any>} */
   const options = {};
+  const photo = kind === "photo" ? new Photo(bytes) : null;
   let got = /** @type {any} */ (null),
     turn = 0,
-    agreed = false;
+    agreed = "";
   /** Keys that were filled in: only of these, or once all is agreed to, a problem is an error; before, it is what is still needed. */
   const filled = new Set();
   const told = h("div", { role: "status" }),
@@ -107,9 +113,10 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
       if (mine !== turn) return;
       got = answer;
       trouble.textContent = "";
+      photo?.outline(answer.rings_px);
       told.replaceChildren(
         ...[
-          preview(answer.shape),
+          photo ? null : preview(answer.shape),
           h("p", {}, `${short(answer.length_mm, 4)} mm long, ${short(answer.width_mm, 4)} mm wide, ${short(answer.area_mm2, 4)} mm²`),
           ...(answer.notes ?? []).map((/** @type {string} */ n) => h("p", { className: "note" }, n)),
         ].filter((n) => n !== null),
@@ -117,6 +124,7 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
     } catch (error) {
       if (mine !== turn) return;
       got = null;
+      photo?.outline([]);
       // The engine reads it as the first damage of a scenario of its own.
       const problems =
         error instanceof Refused
@@ -133,33 +141,49 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
         .join(" ");
     }
   };
-  const fields = fileSpecs(schema, KINDS[kind]).map(
-    (s) =>
-      new Field(
-        s,
-        (spec, value) => {
-          spec.write(options, value);
-          filled.add(String(spec.path.at(-1)));
-          look();
-        },
-        { range: false },
-      ),
-  );
+  const taken = (/** @type {import("./schema.js").Spec} */ spec, /** @type {any} */ value) => {
+    const key = String(spec.path.at(-1));
+    spec.write(options, value);
+    // One scale at a time: the one that was given last.
+    if (photo && key === "mm_per_pixel") {
+      delete options.scale_bar;
+      photo.clear();
+    }
+    filled.add(key);
+    look();
+  };
+  // Two clicks on the photo are its scale bar.
+  const specs = fileSpecs(schema, KINDS[kind]).filter((s) => s.path.at(-1) !== "scale_bar");
+  const fields = specs.map((s) => new Field(s, taken, { range: false }));
   const first = fields.filter((f) => SHOWN.has(String(f.spec.path.at(-1)))),
     rest = fields.filter((f) => !first.includes(f));
   for (const field of fields) field.update(options, {});
   look();
-  const more = h("details", {}, h("summary", {}, "More"), ...rest.map((f) => f.element));
-  for (;;) {
-    const form = await asked(`${name}: damage`, [told, trouble, ...first.map((f) => f.element), more], "Place on the raceway");
-    if (!form) {
-      turn++;
-      return null;
+  if (photo)
+    photo.marked = (bar) => {
+      const { mm_per_pixel: _, ...others } = options;
+      for (const key of Object.keys(options)) delete options[key];
+      Object.assign(options, others, { scale_bar: bar });
+      filled.add("scale_bar");
+      for (const field of fields) field.update(options, { mm_per_pixel: Number((bar.mm / bar.px).toPrecision(4)) });
+      look();
+    };
+  const more = h("details", {}, h("summary", {}, "More"), ...rest.map((f) => f.element)),
+    already = there ? h("p", {}, `The bearing is damaged already: ${places(there)}.`) : null,
+    keys = [told, trouble, photo?.scale ?? null, ...first.map((f) => f.element), more].filter((n) => n !== null),
+    body = photo ? [h("div", { className: "beside" }, photo.element, h("div", {}, ...keys)), already] : [...keys, already],
+    answers = there ? [ADD, ALONE] : ["Place on the raceway"];
+  try {
+    for (;;) {
+      agreed = await asked(`${name}: damage`, body, ...answers);
+      if (!agreed) return null;
+      // What was typed last is looked at too; what is refused is shown again with the reason.
+      await look();
+      if (got) return { shape: got.shape, alone: agreed === ALONE };
     }
-    agreed = true;
-    // What was typed last is looked at too; what is refused is shown again with the reason.
-    await look();
-    if (got) return got;
+  } finally {
+    turn++;
+    photo?.close();
   }
 }
 

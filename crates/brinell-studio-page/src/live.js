@@ -46,6 +46,7 @@ export class Live {
   #pace = new Pace();
   /** While the tables of the opened bearing are made. @type {AbortController | null} */
   #making = null;
+  #begun = 0;
   /** Requests that are late. */
   #late = 0;
   /** @type {(() => void)[]} */
@@ -104,6 +105,11 @@ export class Live {
   /** The edit that is opened next: other tables do not take the picture of a paused bearing away. */
   get #due() {
     return this.#edit?.own && this.#paused ? null : this.#edit;
+  }
+
+  /** Seconds for which the scenario's own table of damage has been computed; null where none is. */
+  get computing() {
+    return this.#making && this.#begun ? Math.floor((performance.now() - this.#begun) / 1000) : null;
   }
 
   /** Whether a run from t = 0 waits for the scenario's own tables. */
@@ -281,6 +287,7 @@ export class Live {
 
   /** Makes the tables of the opened bearing beside it; then it goes on by them. A run from t = 0 waits. @param {Scenario} scenario */
   async #makeTables(scenario) {
+    this.#begun = 0;
     const making = (this.#making = new AbortController()),
       left = making.signal;
     if (!this.#run)
@@ -289,6 +296,10 @@ export class Live {
       });
     if (left.aborted) return;
     let own = false;
+    this.#begun = performance.now();
+    this.report("working");
+    const tick = setInterval(() => this.report("working"), LATE_MS);
+    left.addEventListener("abort", () => clearInterval(tick));
     try {
       const { tables } = await (await this.engine).aside({ do: "tables", scenario }, left);
       if (left.aborted) return;
@@ -296,6 +307,8 @@ export class Live {
       own = true;
     } catch {
       // Where they cannot be made, quick ones stay.
+    } finally {
+      clearInterval(tick);
     }
     if (left.aborted) return;
     this.#making = null;

@@ -2,7 +2,7 @@
 import { NoWasm } from "./assets.js";
 import { byId } from "./dom.js";
 import { engines } from "./engine.js";
-import { notice } from "./readout.js";
+import { notice } from "./notices.js";
 import { Studio } from "./studio.js";
 
 async function main() {

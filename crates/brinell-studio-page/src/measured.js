@@ -5,27 +5,31 @@ import { byId, fill, h, numberInput, numberOf, spelled } from "./dom.js";
 
 /** @typedef {(request: Record<string, unknown>) => Promise<any>} Ask */
 
-/** The dialog's answer: the form when it was agreed to, else null. @param {string} title @param {(Node | null)[]} body @param {string} go */
-export function asked(title, body, go) {
+/**
+ * The dialog's answer: what was agreed to, else "". Where that is one of several, it is chosen with its button: Enter presses none.
+ * @param {string} title @param {(Node | null)[]} body @param {...string} go
+ */
+export function asked(title, body, ...go) {
   const dialog = /** @type {HTMLDialogElement} */ (byId("dialog"));
   const form = h(
     "form",
     { method: "dialog" },
     h("h2", { id: "dialog-title" }, title),
     ...body.filter((node) => node !== null),
-    // Enter in a field presses the first button that submits: that is what was asked for.
+    // Enter in a field presses the first button that submits, unless that is disabled.
     h(
       "div",
       { className: "actions" },
+      go.length > 1 ? h("button", { type: "submit", hidden: true, disabled: true }) : null,
       h("button", { type: "button", onclick: () => dialog.close() }, "Cancel"),
-      h("button", { type: "submit", value: "go" }, go),
+      ...go.map((text) => h("button", { type: "submit", value: text }, text)),
     ),
   );
   dialog.replaceChildren(form);
   dialog.returnValue = "";
   dialog.showModal();
-  return new Promise((/** @type {(form: HTMLFormElement | null) => void} */ done) =>
-    dialog.addEventListener("close", () => done(dialog.returnValue === "go" ? form : null), { once: true }),
+  return new Promise((/** @type {(answer: string) => void} */ done) =>
+    dialog.addEventListener("close", () => done(dialog.returnValue), { once: true }),
   );
 }
 
@@ -131,7 +135,7 @@ export async function judged(ask, name, bytes, known, own, refused) {
   fill();
   const trouble = h("p", { className: "trouble", role: "alert" });
   for (;;) {
-    const form = await asked(
+    const agreed = await asked(
       `Measured signal: ${name}`,
       [
         trouble,
@@ -151,7 +155,7 @@ export async function judged(ask, name, bytes, known, own, refused) {
       ],
       "Judge",
     );
-    if (!form) return null;
+    if (!agreed) return null;
     const c = now(),
       whose = bearing.value === OWN ? { of: own.toml } : { bearing: bearing.value || null };
     try {

@@ -2,7 +2,7 @@
 import { byId } from "./dom.js";
 import { bytesOf, chosenKind, kindsOf, shapeOf } from "./files.js";
 import { judged, showMeasured } from "./measured.js";
-import { notice } from "./readout.js";
+import { notice } from "./notices.js";
 
 /**
  * Opens what was dropped or chosen: a scenario, damage, or a measured signal.
@@ -17,8 +17,9 @@ export async function openFile(file, studio) {
   const bytes = await bytesOf(file);
   if (kind === "toml") return studio.load(new TextDecoder().decode(bytes), false, file.name);
   if (kind !== "signal") {
-    const got = await shapeOf(ask, studio.about.schema, /** @type {any} */ (kind), file.name, bytes);
-    if (got) studio.panel.place(got.shape);
+    const there = studio.side.store.scenario.defects?.length ?? 0,
+      got = await shapeOf(ask, studio.about.schema, /** @type {any} */ (kind), file.name, bytes, there);
+    if (got) studio.panel.place(got.shape, got.alone);
     return;
   }
   const { scenario, toml } = studio.side.opened,

@@ -61,7 +61,7 @@ function state(side) {
   if (live.state === "lost") return "engine lost";
   const long = `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
   if (live.state === "done") return long;
-  const now = live.whole ? `${long}, ${side.percent} %` : live.state,
+  const now = live.whole ? `${long}, ${side.percent} %` : opened?.quick ? `${live.state}, quick tables` : live.state,
     paused = live.whole && live.state === "paused" ? ", paused" : "";
   // Samples count from where the bearing has settled.
   return `${opened ? now + paused : ""}${moments ? (moments.samples ? `, ${moments.samples} samples` : ", settling") : ""}`;
@@ -126,68 +126,16 @@ export function speak(words) {
   );
 }
 
-/**
- * A line above the damage. One of a kind at a time; null takes it away.
- * @param {string} kind
- * @param {string | Node | null} words
- * @param {{bad?: boolean, actions?: [string, () => void][], stays?: boolean}} [more]
- */
-export function notice(kind, words, { bad = false, actions = [], stays = false } = {}) {
-  const root = byId("notices"),
-    old = root.querySelector(`[data-kind="${kind}"]`);
-  if (words === null) return void old?.remove();
-  if (old && typeof words === "string" && old.querySelector("p")?.textContent === words) return;
-  const node = h(
-    "div",
-    { className: bad ? "notice bad" : "notice", "data-kind": kind, role: bad ? "alert" : "status" },
-    typeof words === "string" ? h("p", {}, words) : words,
-    ...actions.map(([text, act]) =>
-      h(
-        "button",
-        {
-          type: "button",
-          onclick: () => {
-            node.remove();
-            act();
-          },
-        },
-        text,
-      ),
-    ),
-    stays ? null : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"),
-  );
-  if (old) old.replaceWith(node);
-  else root.append(node);
-}
-
-/** Notices of what the scenario, and the result of its whole run, warn of. The same is not shown again after it was closed. */
-export class Warnings {
-  /** @type {Record<string, string>} */
-  #shown = {};
-
-  /** @param {Side} side */
-  show({ opened, indicators, live }) {
-    const result = live.state === "done" ? indicators?.warnings : null;
-    for (const [kind, list] of /** @type {[string, string[] | undefined][]} */ ([
-      ["warnings", opened?.warnings],
-      ["result", result],
-    ])) {
-      const words = list?.join("\n") ?? "";
-      if (words === (this.#shown[kind] ?? "")) continue;
-      this.#shown[kind] = words;
-      notice(kind, words || null);
-    }
-  }
-}
-
 /** What the engine does with a bearing, on the page; whether its motion is stopped. @param {import("./side.js").Side} side */
 export function showState(side) {
   const { state } = side.live,
     bad = side.problems.length > 0,
     node = byId("state");
-  const words =
-    state === "lost" ? "engine lost" : side.live.working ? "working" : state === "running" ? `running ${side.percent} %` : state;
-  node.textContent = words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
+  const made = side.live.computing,
+    table = made === null ? "" : `table is being computed${made ? `, ${made} s` : ""}`,
+    live = bad ? "live, last good one" : table || (side.opened.quick ? "live, quick tables" : state),
+    words = /** @type {Record<string, string>} */ ({ lost: "engine lost", live, running: `running ${side.percent} %` });
+  node.textContent = side.live.working && state !== "lost" ? (state === "running" && table) || "working" : (words[state] ?? state);
   node.title = side.opened.quick ? "Damage acts by quick tables until the scenario's own are made" : "";
   node.dataset.state = state;
   node.toggleAttribute("data-bad", bad);

@@ -1,7 +1,7 @@
 // What leaves the page: scenario, signals, sound, pictures, a link. Only what the fields say, once the engine has opened it.
 import { byId } from "./dom.js";
 import { download, saveMenu, savePictures, share } from "./files.js";
-import { notice } from "./readout.js";
+import { notice } from "./notices.js";
 
 /**
  * @typedef {object} Owner

@@ -108,24 +108,27 @@ export const forgetAngle = () => {
 const angle = (f) => (f[0] || f[1] ? Math.atan2(f[1], f[0]) : idle);
 /** @param {number} v */
 const tidy = (v) => Number(v.toPrecision(7));
+/** @param {[number, number]} f */
+const size = (f) => tidy(Math.hypot(...f));
+
+/** Another load or direction; what is null stays. @param {any} tree @param {any} all @param {number | null} force @param {number | null} turn */
+export function putLoad(tree, all, force, turn) {
+  const before = load(tree) ?? load(all) ?? [0, 0],
+    f = force ?? size(before),
+    a = turn ?? angle(before);
+  idle = a;
+  set(
+    tree,
+    ["operation", "load_n"],
+    [f * Math.cos(a), f * Math.sin(a)].map((v) => (Math.abs(v) < 1e-9 * f ? 0 : tidy(v))),
+  );
+}
 
 /** The controls that are always shown. @param {any} schema @returns {Spec[]} */
 export function mainSpecs(schema) {
-  const at = (/** @type {[number, number]} */ f) => tidy(Math.hypot(...f));
   const read = (/** @type {any} */ tree, /** @type {(f: [number, number]) => number} */ part) => {
     const known = load(tree);
     return known && part(known);
-  };
-  const put = (/** @type {any} */ tree, /** @type {any} */ all, /** @type {number | null} */ force, /** @type {number | null} */ turn) => {
-    const before = load(tree) ?? load(all) ?? [0, 0],
-      size = force ?? at(before),
-      a = turn ?? angle(before);
-    idle = a;
-    set(
-      tree,
-      ["operation", "load_n"],
-      [size * Math.cos(a), size * Math.sin(a)].map((v) => (Math.abs(v) < 1e-9 * size ? 0 : tidy(v))),
-    );
   };
   const only = (/** @type {any} */ v) => (typeof v === "object" ? undefined : v);
   /** @type {Path} */
@@ -146,8 +149,8 @@ export function mainSpecs(schema) {
       span: [1, 5000],
       log: true,
       min: 0,
-      read: (t) => read(t, at),
-      write: (t, v, all) => put(t, all, v, null),
+      read: (t) => read(t, size),
+      write: (t, v, all) => putLoad(t, all, v, null),
       refuse: (v) => (v === undefined ? "a load is missing" : v < 0 ? "a load is 0 or more; Load at angle turns it" : ""),
     }),
     spec(schema, loads, {
@@ -158,7 +161,7 @@ export function mainSpecs(schema) {
       span: [-180, 180],
       note: "direction from the bearing's centre to the middle of the load zone, counter-clockwise from +x",
       read: (t) => read(t, (f) => Number((angle(f) / RAD).toFixed(2))),
-      write: (t, v, all) => put(t, all, null, v * RAD),
+      write: (t, v, all) => putLoad(t, all, null, v * RAD),
       refuse: (v) => (v === undefined ? "an angle is missing" : ""),
     }),
     spec(schema, ["bearing", "radial_clearance_um"], { label: "Clearance", span: [-5, 50], log: false }),

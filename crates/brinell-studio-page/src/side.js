@@ -14,6 +14,8 @@ export class Side {
   moments = null;
   /** @type {any} */
   spectra = null;
+  /** Beside another bearing: spectra of as many samples as its. @type {any} */
+  equal = null;
   /** @type {any} */
   indicators = null;
   /** @type {any} */
@@ -78,6 +80,7 @@ export class Side {
     if (edit.again) return;
     // What was said of the bearing before is not said of this one.
     this.verdict = this.loop = null;
+    if (this.equal) this.equal = { ...this.equal, lines: [] };
     if (this.spectra) this.spectra = { ...this.spectra, lines: [] };
     this.took = took;
     this.problems = [];

@@ -8,7 +8,8 @@ import { droppable } from "./files.js";
 import { openFile } from "./opening.js";
 import { Healthy } from "./healthy.js";
 import { showKeys } from "./help.js";
-import { Warnings, notice, readout, showState, speak } from "./readout.js";
+import { readout, showState, speak } from "./readout.js";
+import { Warnings, notice } from "./notices.js";
 import { Saving } from "./saving.js";
 import { forgetAngle } from "./schema.js";
 import { Side } from "./side.js";
@@ -22,7 +23,8 @@ import { storedRun } from "./stored.js";
 const START = "rectangle",
   KEPT_MS = 400,
   SLOW_READOUT_MS = 200,
-  PASSAGE_MS = 120;
+  PASSAGE_MS = 120,
+  MOST_EQUAL = 32768;
 
 export class Studio {
   /** @type {any} */
@@ -228,6 +230,7 @@ export class Studio {
     if (kind === "recovered") this.#recovered();
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
+    if (kind === "spectra") this.#equal();
     // What is kept for the next time waits for no answer.
     if (side === this.sides[0] && ["opened", "scenario", "problems"].includes(kind) && !data?.edit?.again) {
       clearTimeout(this.#keep);
@@ -284,6 +287,21 @@ export class Studio {
     if (this.difference === before) return;
     if (this.difference) speak(this.difference);
     this.dirty.add("readout");
+  }
+
+  /** Spectra of both bearings, of equally many samples that count: a longer record has narrower lines, and one that begins has the load's ramp in it. */
+  async #equal() {
+    if (!this.beside) return;
+    const least = Math.min(MOST_EQUAL, ...this.sides.map((s) => s.moments?.samples ?? 0)),
+      longest = 2 ** Math.floor(Math.log2(least));
+    try {
+      const got = await Promise.all(this.sides.map((s) => s.live.ask({ do: "spectra", longest })));
+      if (got.length < 2 || got.some((one) => one.samples !== longest || !one.spectrum)) return;
+      this.sides.forEach((s, k) => (s.equal = got[k]));
+      this.dirty.add("curves");
+    } catch {
+      // The next spectra ask for them again.
+    }
   }
 
   /** @param {any} data */
@@ -464,6 +482,7 @@ export class Studio {
     this.beside = on;
     byId("both").setAttribute("aria-pressed", String(on));
     this.#differ();
+    this.#equal();
     this.dirty.add("curves").add("readout");
   }
 

@@ -242,7 +242,7 @@ describe("the page with its engine, held against the command", { skip: missing }
       };
       const placed = async (count) => {
         await until(page, () => / mm²/.test(document.querySelector("dialog[open]")?.textContent ?? ""));
-        await page.click('dialog button:has-text("Place on the raceway")');
+        await page.click(`dialog button:has-text("${count > 1 ? "Add to the damage" : "Place on the raceway"}")`);
         await until(
           page,
           (n) => globalThis.brinellStudio.side.damage.length === n && globalThis.brinellStudio.side.opened.scenario.defects.length === n,

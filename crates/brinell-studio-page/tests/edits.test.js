@@ -18,13 +18,29 @@ const ran = async (page) =>
 const on = (options, look) => quietly(browser, server.url, options, look);
 
 describe("edits", () => {
-  it("says that damage stays when another bearing is chosen", async () =>
+  it("gives another bearing a load and a name that fit it, and says that damage stays", async () =>
     on({}, async (page) => {
       await start(page, "rectangle");
+      await page.selectOption("#preset", "bearing:NU2205");
+      await page.click("#load");
+      // A tenth of C0 = 34 kN, to one digit, as `brinell init --bearing NU2205` has it, in the direction that was there; 300 N are the NN3007's.
+      await until(page, () => globalThis.brinellStudio.side.opened.scenario.bearing.preset === "NU2205");
+      const { name, operation } = (await opened(page)).scenario;
+      assert.deepEqual([name, operation.load_n], ["NU2205", [3000, 0]]);
+      // A name that somebody gave stays.
+      await page.evaluate(() =>
+        globalThis.brinellStudio.side.store.change((s) => {
+          s.name = "pump";
+        }),
+      );
       await page.selectOption("#preset", "bearing:6205");
       await page.click("#load");
-      await page.waitForSelector('[data-kind="kept"]');
-      assert.match(await page.textContent('[data-kind="kept"]'), /6205 has the damage that was drawn before: 1 place/);
+      await page.waitForSelector('[data-kind="kept"]:has-text("6205")');
+      assert.equal((await scenario(page)).name, "pump");
+      assert.match(
+        await page.textContent('[data-kind="kept"]'),
+        /^6205 under 800 N, .*It has the damage that was drawn before: 1 place, at the same angles and of the same size\./,
+      );
       await page.click('[data-kind="kept"] button:has-text("Remove the damage")');
       await until(page, () => !globalThis.brinellStudio.side.opened.scenario.defects?.length);
     }));

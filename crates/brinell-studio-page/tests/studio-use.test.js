@@ -42,8 +42,8 @@ describe("the page in use", () => {
               side = globalThis.brinellStudio.sides.find((one) => one.name === name);
             return (
               data?.second &&
-              data.values === side.spectra.envelope.values &&
-              data.lines === side.spectra.lines &&
+              data.values === side.equal?.envelope.values &&
+              data.lines === side.equal.lines &&
               data.names[0].startsWith(name)
             );
           },
@@ -53,6 +53,51 @@ describe("the page in use", () => {
       await page.click("#side-a");
       assert.deepEqual((await scenario(page)).defects ?? [], []);
       await shown("A");
+    }));
+
+  it("compares A with B by spectra of equally many samples, from B's first curve on", async () =>
+    on({}, async (page) => {
+      await start(page, "healthy");
+      await until(page, () => globalThis.brinellStudio.side.moments?.samples > 9000);
+      await page.click("#both");
+      for (const kind of ["spectrum", "envelope"]) {
+        const shown = await until(
+          page,
+          (kind) => {
+            const data = document.querySelector(`brinell-curve[kind="${kind}"]`).data;
+            return data?.second && [data.values.length, data.second.values.length, data.dx, data.second.dx];
+          },
+          kind,
+        );
+        const [own, theirs, dx, dx2] = await shown.jsonValue();
+        assert.deepEqual([own, dx], [theirs, dx2], kind);
+      }
+    }));
+
+  it("keeps notices in one line and the verdict in sight", async () =>
+    on({}, async (page) => {
+      // Each of these has something to say.
+      await page.selectOption("#preset", "bearing:NU2205");
+      await page.click("#load");
+      await page.waitForSelector('[data-kind="kept"]');
+      await page.click("#share");
+      await page.waitForSelector('[data-kind="link"]');
+      await drop(page, "broken.wav", Buffer.from("no sound").toString("base64"));
+      await page.waitForSelector('[data-kind="failed"]');
+      assert.equal(await page.locator("#notices > .notice:visible").count(), 1);
+      assert.equal(await page.locator("#notices > .notice").count(), 3);
+      const low = () => page.locator("footer .headline").evaluate((node) => node.getBoundingClientRect().bottom);
+      assert.ok((await low()) <= 900, `the verdict ends at ${await low()} px of 900`);
+      const all = page.locator("#notices > .all");
+      assert.equal(await all.textContent(), "2 more");
+      await all.click();
+      assert.equal(await page.locator("#notices > .notice:visible").count(), 3);
+      await all.click();
+      assert.equal(await page.locator("#notices > .notice:visible").count(), 1);
+      // The one that is closed makes room for the one before.
+      await page.click('[data-kind="failed"] [aria-label="Close this notice"]');
+      await page.waitForSelector('[data-kind="link"]');
+      assert.equal(await all.textContent(), "1 more");
     }));
 
   it("judges a measured signal by what is given and by nothing of the page", async () =>

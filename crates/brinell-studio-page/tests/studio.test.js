@@ -224,6 +224,84 @@ describe("the page", () => {
       assert.ok((await scenario(page)).defects[0].shape.outline);
     }));
 
+  it("shows a photo with its outline, takes its scale from two clicks, and asks whether to replace or add", async () =>
+    on({}, async (page) => {
+      await start(page, "rectangle");
+      const photo = (await readFile(resolve(ROOT, "../brinell-studio/examples/photo-spall.png"))).toString("base64");
+      const chosen = async () => {
+        await drop(page, "photo-spall.png", photo);
+        await page.click('dialog button:has-text("Open")');
+        await until(page, () => document.querySelector("dialog .photo img")?.naturalWidth);
+      };
+      const found = () => page.locator("dialog .photo .found").getAttribute("d");
+      await chosen();
+      assert.match(await page.textContent("dialog"), /The bearing is damaged already: 1 place\./);
+      // 5 mm between clicks half the photo's width apart.
+      const over = page.locator("dialog .photo svg"),
+        { width, height } = await over.boundingBox(),
+        columns = await page.locator("dialog .photo img").evaluate((node) => node.naturalWidth);
+      await over.click({ position: { x: 0.25 * width, y: 0.5 * height } });
+      await over.click({ position: { x: 0.75 * width, y: 0.5 * height } });
+      await page.fill("#ask-length-between-two-clicks", "5");
+      const scale = page.locator("dialog .field", { hasText: "Millimetres per pixel" }).locator("input[inputmode]"),
+        known = Number(await scale.inputValue());
+      assert.ok(Math.abs(known / (5 / (columns / 2)) - 1) < 0.01, `${known} mm per pixel`);
+      await until(page, () => document.querySelector("dialog .photo .found").getAttribute("d"));
+      // The outline lies in the photo, and follows a key.
+      const box = await page.locator("dialog .photo .found").evaluate((node) => {
+        const { x, y, width, height } = node.getBBox();
+        return [x, y, x + width, y + height];
+      });
+      assert.ok(box[0] >= 0 && box[1] >= 0 && box[2] <= columns && box[2] - box[0] > 0.1 * columns, String(box));
+      const before = await found();
+      await type(page.locator("dialog .field", { hasText: "Threshold" }).locator("input[inputmode]"), "0.3");
+      await until(page, (d) => !["", d].includes(document.querySelector("dialog .photo .found").getAttribute("d")), before);
+      // Another scale takes the place of the clicks'.
+      await type(scale, "0.02");
+      await until(page, () => !document.querySelector("dialog .photo .bar").getAttribute("d"));
+      // Enter does not answer the question.
+      await scale.press("Enter");
+      assert.ok(await page.isVisible("dialog"));
+      await until(page, () => / mm²/.test(document.querySelector("dialog").textContent));
+      await page.click('dialog button:has-text("Add to the damage")');
+      await settled(page);
+      assert.deepEqual(
+        (await scenario(page)).defects.map((d) => Object.keys(d.shape)[0]),
+        ["rectangle", "outline"],
+      );
+      await chosen();
+      await type(scale, "0.02");
+      await page.click('dialog button:has-text("Replace the damage")');
+      await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 1);
+      assert.ok((await scenario(page)).defects[0].shape.outline);
+      // One step back.
+      await page.click('button:has-text("Undo")');
+      await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 2);
+    }));
+
+  it("says by which law damage acts, and that its table is being computed", async () =>
+    on({}, async (page) => {
+      await start(page, "healthy");
+      // Tables that somebody waits for.
+      await page.evaluate(async () => {
+        const engine = await globalThis.brinellStudio.side.live.engine,
+          { aside } = engine;
+        const gate = new Promise((done) => {
+          globalThis.letGo = done;
+        });
+        engine.aside = async (...asked) => (await gate, aside.apply(engine, asked));
+      });
+      await page.click('[data-tool="circle"]');
+      await drag(page, [0.5, 0.5], [0.51, 0.5]);
+      await says(page, /^table is being computed, [1-9]\d* s$/);
+      assert.match(await page.textContent("footer .note"), /^live, quick tables/);
+      await page.click("#run");
+      await says(page, /^table is being computed/);
+      await page.evaluate(() => globalThis.letGo());
+      await says(page, /^done$/);
+      assert.doesNotMatch(await page.textContent("footer .note"), /quick/);
+    }));
+
   it("carries a scenario in a link, a file and its memory", async () =>
     on({}, async (page) => {
       await start(page, "rectangle");

@@ -5,7 +5,9 @@ use crate::report::{Answer, Trouble};
 use crate::{pen, text};
 use brinell::analysis::NAMED;
 use brinell::bearing::catalogue;
+use brinell::bearing::rating::normal_load;
 use brinell::document::json_schema;
+use brinell::scenario::Scenario;
 use serde_json::Value;
 
 /// Examples of the repository: name, text.
@@ -39,7 +41,9 @@ pub fn example_file(name: &str) -> Option<&'static [u8]> {
 pub(crate) fn about() -> Reply {
     let bearing = |entry: &'static catalogue::Entry| {
         let element = if entry.has_balls() { "ball" } else { "roller" };
-        Offered { name: &entry.name, words: &entry.title, element }
+        let alone = Scenario::of_bearing(&entry.name, 60.0, [1.0, 0.0]);
+        let load_n = alone.ok().map(|of| normal_load(&of.bearing));
+        Offered { name: &entry.name, words: &entry.title, element, load_n }
     };
     // Also those of data sets that are of a catalogued size, as 6205-2RS: a measured file may be of them.
     let named = NAMED.iter().map(|b| b.name).filter(|name| catalogue::find_exactly(name).is_none());

@@ -55,7 +55,7 @@ objects! {
         bearings: Vec<Offered>, known: Vec<&'static str>, examples: Vec<Example>,
     }
     /// A bearing to choose.
-    Offered { name: &'static str, words: &'static str, element: &'static str }
+    Offered { name: &'static str, words: &'static str, element: &'static str, load_n: Option<f64> }
     /// An example to choose.
     Example { name: &'static str, words: String }
 
@@ -164,7 +164,7 @@ objects! {
     Drawn { shape: Value, center_mm: [f64; 2], length_mm: f64, width_mm: f64 }
     /// The shape of a file.
     Outline {
-        shape: Value, notes: Vec<String>,
+        shape: Value, notes: Vec<String>, rings_px: Vec<Reference>,
         length_mm: Option<f64>, width_mm: Option<f64>, area_mm2: Option<f64>,
     }
 

@@ -98,8 +98,8 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Reply> {
 }
 
 /// `outline`: a photo, a drawing or a depth map as a shape.
-pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Reply> {
-    let bytes = request.get("bytes").and_then(|b| arrays.octets(b));
+pub(crate) fn outlined(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Answer<Reply> {
+    let bytes = request.get("bytes").and_then(|b| given.octets(b));
     let bytes = bytes.ok_or_else(|| Trouble::of("\"bytes\" must be an array of u8"))?;
     let name = request["name"].as_str().unwrap_or("file");
     let key = match request["kind"].as_str() {
@@ -122,9 +122,11 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Reply> {
     let made = brinell::defect::Shape::new(&shape, 0.0);
     let extent = made.map(|made| Extent::of(&made, 1e-5));
     let mm = |f: fn(&Extent) -> f64, scale: f64| extent.as_ref().map(|e| scale * f(e));
+    let rings = read.rings_px.iter();
     Ok(Reply::Outline(Outline {
         shape: stated(shape)?,
         notes,
+        rings_px: rings.map(|ring| arrays.rounded(ring.as_flattened())).collect(),
         length_mm: mm(|e| e.length, 1e3),
         width_mm: mm(|e| e.width, 1e3),
         area_mm2: mm(|e| e.area, 1e6),

@@ -89,7 +89,7 @@ impl Studio {
             "about" => Ok(about::about()),
             "example" => about::example(request),
             "normal" => normal(request),
-            "outline" => pen::outlined(request, given),
+            "outline" => pen::outlined(request, given, arrays),
             "scratch" => pen::scratched(request, given),
             "brush" => pen::brushed(request, given),
             "listen" => measured::listen(request, given),

@@ -268,8 +268,33 @@ fn prop_every_example_opens_and_the_photo_is_read() {
     let png = include_bytes!("../../../examples/photo-spall.png");
     let asked = json!({ "do": "outline", "kind": "photo", "name": "photo-spall.png", "bytes": { "$": ["u8", 0, png.len()] },
         "options": { "mm_per_pixel": 0.02, "rolling_direction": "right" } });
-    let outline = ask_with(&mut studio, asked, png).json;
-    assert!((outline["area_mm2"].as_f64().unwrap() - 8.92).abs() < 0.05, "{outline}");
+    let answer = ask_with(&mut studio, asked, png);
+    let outline = &answer.json;
+    let area = outline["area_mm2"].as_f64().unwrap();
+    assert!((area - 8.92).abs() < 0.05, "{outline}");
+    // The same outline in pixels of the photo, by the shoelace formula.
+    let rings = outline["rings_px"].as_array().unwrap();
+    let pixels: f64 = rings.iter().map(|ring| shoelace(&singles(&answer, ring))).sum();
+    assert!((0.02_f64.powi(2) * pixels.abs() / area - 1.0).abs() < 1e-3, "{pixels} pixels for {area} mm^2");
+}
+
+/// Area within x, y, x, y, ...; that of a hole has the other sign.
+fn shoelace(ring: &[f32]) -> f64 {
+    let points = ring.as_chunks::<2>().0;
+    let next = points.iter().cycle().skip(1);
+    points.iter().zip(next).map(|(p, q)| 0.5 * f64::from(p[0] * q[1] - q[0] * p[1])).sum()
+}
+
+/// Of each bearing the load that `brinell init` would state.
+#[test]
+fn prop_every_bearing_is_offered_with_a_load_that_fits_it() {
+    let about = good(&mut Studio::new(), json!({ "do": "about" })).json;
+    for bearing in about["bearings"].as_array().unwrap() {
+        let name = bearing["name"].as_str().unwrap();
+        let of = brinell::Scenario::of_bearing(name, 1500.0, [1.0, 0.0]).unwrap().bearing;
+        let share = bearing["load_n"].as_f64().unwrap() / brinell::bearing::rating::static_rating(&of).load;
+        assert!((0.06..0.15).contains(&share), "{name}: {share}");
+    }
 }
 
 #[test]

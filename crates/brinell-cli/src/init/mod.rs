@@ -7,7 +7,7 @@ use crate::failure::{ExitCode, Failure};
 use crate::say::{document, pretty, say};
 use brinell::Scenario;
 use brinell::bearing::catalogue::{self, Entry};
-use brinell::bearing::rating::static_rating;
+use brinell::bearing::rating::normal_load;
 use brinell::bearing::{KnownBearing, USUAL_CONFORMITY, clearance_of};
 use brinell::document::toml_quote;
 use brinell_io::{Complete, atomic_prepare, atomic_write};
@@ -246,9 +246,6 @@ impl Fitted {
 const PAPER: (&str, [f64; 2]) = ("NN3007", [3.0, 4.0]);
 /// r/min.
 const SPEED_RPM: f64 = 1800.0;
-/// Load of a bearing over its static rating, where none is given: 5 to 9 % of the dynamic rating, a normal load, of
-/// which the ring's support, as it is where none is given, carries less than a tenth.
-const LOAD_OVER_RATING: f64 = 0.1;
 /// Size of a spall on it over the rolling element's diameter, and over the roller's length.
 const SPALL: [f64; 2] = [0.3, 0.5];
 /// Diameter of a pit over the ball's.
@@ -292,10 +289,10 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
         true => SPALL[0] * diameter,
         false => SPALL[1] * number("roller_length_mm"),
     };
-    let rating = Scenario::of_bearing(&entry.name, SPEED_RPM, [1.0, 0.0]).map(|s| static_rating(&s.bearing).load);
+    let load = Scenario::of_bearing(&entry.name, SPEED_RPM, [1.0, 0.0]).map(|s| normal_load(&s.bearing));
     let mut of = Fitted {
         preset,
-        load: one_digit(rating.map_or(500.0, |c0| LOAD_OVER_RATING * c0)),
+        load: load.unwrap_or(50.0),
         spall: [tenth(SPALL[0] * diameter), tenth(width)],
         pit: tenth(PIT * diameter),
         scale: match entry.has_balls() {
@@ -316,11 +313,6 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
 
 fn tenth(x: f64) -> f64 {
     (10.0 * x).round() / 10.0
-}
-
-fn one_digit(x: f64) -> f64 {
-    let power = 10_f64.powi(x.log10().floor() as i32);
-    (x / power).round() * power
 }
 
 /// Names within the files.

@@ -46,6 +46,17 @@ pub fn static_rating(bearing: &Bearing) -> StaticRating {
     StaticRating { load, source: None }
 }
 
+/// A load over the static rating: 5 to 9 % of the dynamic rating, a normal load, of which the ring's support, as it is
+/// where none is given, carries less than a tenth.
+const NORMAL_LOAD: f64 = 0.1;
+
+/// The load that a scenario of a bearing starts from, N: a tenth of its static rating, to one digit.
+pub fn normal_load(bearing: &Bearing) -> f64 {
+    let load = NORMAL_LOAD * static_rating(bearing).load;
+    let power = 10_f64.powi(load.log10().floor() as i32);
+    (load / power).round() * power
+}
+
 /// C0 of each mm of its rollers' length, N, by ISO 76.
 fn rating_of_length(b: &Bearing) -> f64 {
     let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
@@ -112,6 +123,16 @@ mod tests {
         let by_hand = 44.0 * (1.0 - 9.0 / 46.5) * 12.0 * 8.8 * 9.0;
         assert_eq!(estimate.source, None);
         assert!((estimate.load / by_hand - 1.0).abs() < 1e-12);
+    }
+
+    /// NU 206 ECP: C0 = 36.5 kN of SKF's sheet.
+    #[test]
+    fn analytic_normal_load_is_a_tenth_of_the_rating() {
+        let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n";
+        let mut b = read(text, &[]).unwrap().scenario.bearing;
+        assert_eq!(normal_load(&b), 4000.0);
+        b.static_load_rating_n = Some(12_400.0);
+        assert_eq!(normal_load(&b), 1000.0);
     }
 
     /// NU 204 ECP: F = 26.5 mm, E of the N 204 41.5 mm, C0 = 22 kN of SKF's sheet; 11 rollers.
