@@ -164,7 +164,7 @@ export async function shapeOf(ask, schema, kind, name, bytes, there) {
       const { mm_per_pixel: _, ...others } = options;
       for (const key of Object.keys(options)) delete options[key];
       Object.assign(options, others, { scale_bar: bar });
-      filled.add("scale_bar");
+      filled.add("scale_bar").add("mm_per_pixel").add("px").add("mm");
       for (const field of fields) field.update(options, { mm_per_pixel: Number((bar.mm / bar.px).toPrecision(4)) });
       look();
     };

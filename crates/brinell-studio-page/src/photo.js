@@ -15,7 +15,7 @@ export class Photo {
   #bar = drawn("path", "bar");
   #over = drawn("svg");
   #image;
-  #mm = numberInput({ placeholder: "5" }, 1, 0);
+  #mm = numberInput({}, 1, 0);
 
   /** @param {Uint8Array<ArrayBuffer>} bytes of a PNG or JPEG */
   constructor(bytes) {

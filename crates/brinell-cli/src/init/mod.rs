@@ -292,7 +292,7 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
     let load = Scenario::of_bearing(&entry.name, SPEED_RPM, [1.0, 0.0]).map(|s| normal_load(&s.bearing));
     let mut of = Fitted {
         preset,
-        load: load.unwrap_or(50.0),
+        load: load.unwrap_or(500.0),
         spall: [tenth(SPALL[0] * diameter), tenth(width)],
         pit: tenth(PIT * diameter),
         scale: match entry.has_balls() {
