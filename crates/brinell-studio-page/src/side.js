@@ -6,6 +6,28 @@ import { Trace } from "./trace.js";
 /** @typedef {import("./answers.js").Trouble} Trouble */
 /** @typedef {(side: Side, kind: string, data?: any) => void} Show */
 
+const MOST_EQUAL = 32768;
+
+/**
+ * Puts spectra of equally many samples that count into bearings that are compared: a longer record has narrower lines, and one that begins has the
+ * load's ramp in it.
+ * @param {Side[]} sides
+ * @returns {Promise<boolean>} whether there are any
+ */
+export async function equalSpectra(sides) {
+  const least = Math.min(MOST_EQUAL, ...sides.map((s) => s.moments?.samples ?? 0)),
+    longest = 2 ** Math.floor(Math.log2(least));
+  try {
+    const got = await Promise.all(sides.map((s) => s.live.ask({ do: "spectra", longest })));
+    if (got.length < 2 || got.some((one) => one.samples !== longest || !one.spectrum)) return false;
+    sides.forEach((s, k) => (s.equal = got[k]));
+    return true;
+  } catch {
+    // The next spectra ask for them again.
+    return false;
+  }
+}
+
 export class Side {
   trace = new Trace();
   /** @type {any} the opened bearing */

@@ -12,7 +12,7 @@ import { readout, showState, speak } from "./readout.js";
 import { Warnings, notice } from "./notices.js";
 import { Saving } from "./saving.js";
 import { forgetAngle } from "./schema.js";
-import { Side } from "./side.js";
+import { Side, equalSpectra } from "./side.js";
 import { actOf } from "./shortcuts.js";
 import { fromLink, pathOf, remember, remembered } from "./state.js";
 import { startList } from "./start.js";
@@ -23,8 +23,7 @@ import { storedRun } from "./stored.js";
 const START = "rectangle",
   KEPT_MS = 400,
   SLOW_READOUT_MS = 200,
-  PASSAGE_MS = 120,
-  MOST_EQUAL = 32768;
+  PASSAGE_MS = 120;
 
 export class Studio {
   /** @type {any} */
@@ -289,19 +288,8 @@ export class Studio {
     this.dirty.add("readout");
   }
 
-  /** Spectra of both bearings, of equally many samples that count: a longer record has narrower lines, and one that begins has the load's ramp in it. */
   async #equal() {
-    if (!this.beside) return;
-    const least = Math.min(MOST_EQUAL, ...this.sides.map((s) => s.moments?.samples ?? 0)),
-      longest = 2 ** Math.floor(Math.log2(least));
-    try {
-      const got = await Promise.all(this.sides.map((s) => s.live.ask({ do: "spectra", longest })));
-      if (got.length < 2 || got.some((one) => one.samples !== longest || !one.spectrum)) return;
-      this.sides.forEach((s, k) => (s.equal = got[k]));
-      this.dirty.add("curves");
-    } catch {
-      // The next spectra ask for them again.
-    }
+    if (this.beside && (await equalSpectra(this.sides))) this.dirty.add("curves");
   }
 
   /** @param {any} data */
