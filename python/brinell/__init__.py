@@ -10,11 +10,11 @@ Examples
 ...     bearing="NN3007",
 ...     operation={"speed_rpm": 1800.0, "load_n": [300.0, 0.0]},
 ...     defects=[brinell.rectangle(length_mm=3.0, width_mm=4.0, depth_um=20.0)],
-...     simulation={"duration_s": 0.1, "sample_rate_hz": 25600.0},
+...     simulation={"duration_s": 1.0, "sample_rate_hz": 25600.0},
 ... )
 >>> result = brinell.simulate(scenario)
->>> result["sensor_ax"].shape
-(2561,)
+>>> result.settled["sensor_ax"].shape  # without the start of the run
+(24235,)
 >>> round(result.summary["defect_frequencies"]["hz"]["bpfo"], 1)
 250.1
 """
@@ -26,7 +26,7 @@ from brinell.comparisons import Comparison, compare
 from brinell.damage import circle, defect, depth_map, image, outline, rectangle, svg
 from brinell.datasets import DataSet, Plan
 from brinell.notebook import studio
-from brinell.result import Result
+from brinell.result import Result, Settled
 from brinell.runs import simulate, simulate_many
 from brinell.scenario import Scenario, ScenarioWarning, bearings, schema, template
 from brinell.signals import (
@@ -61,6 +61,7 @@ __all__ = [
     "Scenario",
     "ScenarioError",
     "ScenarioWarning",
+    "Settled",
     "Signal",
     "SignalError",
     "Spectrogram",

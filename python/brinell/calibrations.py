@@ -167,7 +167,7 @@ def calibrate(
     Examples
     --------
     >>> import brinell
-    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> found = brinell.calibrate(
     ...     base, {"operation.speed_rpm": (1500.0, 2100.0)}, {"defect1.pure_rolling_frequency": (250.1, 0.5)}, budget=8
     ... )

@@ -134,12 +134,12 @@ def compare(
     Examples
     --------
     >>> import brinell
-    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
-    >>> compared = brinell.compare({"full": base}, {"lumped": {"simulation.model": "lumped"}})
+    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
+    >>> compared = brinell.compare({"deep": base}, {"shallow": {"defects.0.depth_um": 1.0}})
     >>> compared["sensor_ax.rms"]["unit"], sorted(compared["sensor_ax.rms"]["ratios"])
-    ('m/s^2', ['lumped'])
+    ('m/s^2', ['shallow'])
     >>> list(compared.columns)[:4]
-    ['quantity', 'unit', 'full', 'full.low']
+    ['quantity', 'unit', 'deep', 'deep.low']
     """
     if not isinstance(runs, Mapping):
         raise TypeError(f'runs: expected runs by name, such as {{"full": scenario}}, and it is {type(runs).__name__}')

@@ -56,7 +56,7 @@ class Plan:
     ... runs_per_file = 2
     ... signals = ["sensor_ax"]
     ... [vary]
-    ... simulation.duration_s = 0.2
+    ... simulation.duration_s = 1.0
     ... operation.speed_rpm = { uniform = [1500, 3000] }
     ... ''')
     >>> plan = brinell.Plan(folder / "plan.toml")
@@ -66,7 +66,7 @@ class Plan:
     >>> data.verify()
     []
     >>> data.to_polars()["sensor_ax"].list.len().to_list()
-    [5120, 5120, 5120, 5120]
+    [25600, 25600, 25600, 25600]
     """
 
     __slots__ = ("_native", "path")

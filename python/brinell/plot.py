@@ -83,9 +83,9 @@ def signal(
     Examples
     --------
     >>> import brinell, brinell.plot
-    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> brinell.plot.signal(brinell.simulate(scenario), "outer_ax").get_xlabel()
-    'Time (ms)'
+    'Time (s)'
     """
     ax = _axes(ax)
     if channel is None:
@@ -218,16 +218,16 @@ _MARKS = (SECOND, GREEN, "#CC79A7", "#E69F00", "#56B4E9", BLACK)
 _LANE = 11.0
 
 
-def _lanes(ax: Any, marks: list[tuple[str, float, bool]], harmonics: int) -> None:
-    """Harmonics of each frequency on a line of their own above the plot; those of damage run down through it."""
+def _lanes(ax: Any, marks: list[tuple[str, float, bool, str]], harmonics: int) -> None:
+    """Harmonics of each frequency on a line of their own above the plot; those of damage run down through it. Behind the frequency stands what it is."""
     top = ax.get_xlim()[1]
-    for k, (label, hz, through) in enumerate(reversed(marks)):
+    for k, (label, hz, through, what) in enumerate(reversed(marks)):
         colour = _MARKS[(len(marks) - 1 - k) % len(_MARKS)]
         words = BLACK if through else FAINT
         lane = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center", "fontsize": "small", "annotation_clip": False}
         height = 6.0 + _LANE * k
         ax.annotate(label, (0.0, 1.0), (-6.0, height), ha="right", color=words, fontweight="bold", **lane)
-        ax.annotate(f"{hz:.4g} Hz", (1.0, 1.0), (6.0, height), color=words, **lane)
+        ax.annotate(f"{hz:.4g} Hz{what}", (1.0, 1.0), (6.0, height), color=words, **lane)
         for n in range(1, harmonics + 1):
             if n * hz > top:
                 break
@@ -251,10 +251,12 @@ _FREQUENCIES = {"BPFO": "bpfo", "BPFI": "bpfi", "2 BSF": "2bsf", "FTF": "ftf", "
 def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 5, ax: Any = None) -> matplotlib.axes.Axes:
     """The envelope spectrum of a run; above it the harmonics of every defect frequency, those of its damage dashed through it.
 
+    The frequency of damage is the one that was found in the envelope, where one was; the others are of pure rolling.
+
     Examples
     --------
     >>> import brinell, brinell.plot
-    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> brinell.plot.envelope(brinell.simulate(scenario)).get_xlabel()
     'Frequency (Hz)'
     """
@@ -263,9 +265,15 @@ def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 5, 
         raise ValueError("the run is too short for an envelope spectrum")
     damage = {d["line"]["name"] for d in result.defects if "line" in d}
     hertz = result.summary["defect_frequencies"]["hz"] or {}
-    marks = [(label, hertz[key], label in damage) for label, key in _FREQUENCIES.items() if hertz.get(key)]
+    lines = ((d["line"]["name"], result.quantities.get(f"defect{k}.frequency", np.nan)) for k, d in enumerate(result.defects, 1) if "line" in d)
+    seen = {name: hz for name, hz in lines if np.isfinite(hz)}
+    marks = [
+        (label, seen.get(label, hertz[key]), label in damage, " found" if label in seen else ", pure rolling")
+        for label, key in _FREQUENCIES.items()
+        if hertz.get(key)
+    ]
     if to_hz is None:
-        there = [hz for _, hz, through in marks if through] or [hz for _, hz, _ in marks]
+        there = [hz for _, hz, through, _ in marks if through] or [hz for _, hz, *_ in marks]
         to_hz = (harmonics + 0.5) * max(there) if there else float(found.frequency_hz[-1])
     axes = _lines(found, "Envelope amplitude", min(to_hz, float(found.frequency_hz[-1])), ax)
     _lanes(axes, marks, harmonics)
@@ -301,7 +309,7 @@ def load_zone(result: Result, *, row: int = 1, ax: Any = None) -> matplotlib.axe
     Examples
     --------
     >>> import brinell, brinell.plot
-    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> brinell.plot.load_zone(brinell.simulate(scenario)).name
     'polar'
     """
@@ -358,7 +366,7 @@ def roller_pass(result: Result, defect: int = 1, *, ax: Any = None) -> matplotli
     Examples
     --------
     >>> import brinell, brinell.plot
-    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> brinell.plot.roller_pass(brinell.simulate(scenario)).get_ylabel()
     'Force (N)'
     """
@@ -399,7 +407,7 @@ def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> mat
     'Envelope amplitude (g)'
     """
     axes = _lines(of.envelope, "Envelope amplitude", to_hz, ax)
-    marks = [(f["name"], f["found_hz"], f["says"] == "damage") for f in of.families if f.get("found_hz")]
+    marks = [(f["name"], f["found_hz"], f["says"] == "damage", "") for f in of.families if f.get("found_hz")]
     _lanes(axes, marks, 5)
     low, high = of.envelope.band_hz or (0.0, 0.0)
     _titled(axes, f"{low / 1e3:.1f} to {high / 1e3:.1f} kHz", len(marks))
@@ -412,7 +420,7 @@ def table(of: Table, y: str, x: str | None = None, *, ax: Any = None) -> matplot
     Examples
     --------
     >>> import brinell, brinell.plot
-    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
+    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> swept = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0]})
     >>> brinell.plot.table(swept, "sensor_ax.rms").get_xlabel()
     'operation.speed_rpm'

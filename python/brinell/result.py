@@ -20,7 +20,45 @@ if TYPE_CHECKING:
     import polars
     import xarray
 
-__all__ = ["Result"]
+__all__ = ["Result", "Settled"]
+
+
+class Settled(Mapping[str, npt.NDArray[np.float64]]):
+    """The channels of a result from the time on from which it is analysed, as `Result.settled` gives them.
+
+    A read-only mapping with the keys of the result. Each array is a view of the end of the result's own, one sample a row: nothing is copied.
+    """
+
+    def __init__(self, result: Result) -> None:
+        self._result = result
+        self._first = result._first()
+
+    def __getitem__(self, channel: str) -> npt.NDArray[np.float64]:
+        """A channel's samples, SI."""
+        return self._result[channel][self._first :]
+
+    def __contains__(self, channel: object) -> bool:
+        """Whether a channel was recorded."""
+        return channel in self._result
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the channels, time first."""
+        return iter(self._result)
+
+    def __len__(self) -> int:
+        """Number of channels, as of any mapping; ``len(settled.t)`` is that of the samples."""
+        return len(self._result.signals)
+
+    @property
+    def t(self) -> npt.NDArray[np.float64]:
+        """Time of each sample since the start of the run, s; the first is ``analysed_from``."""
+        return self["t"]
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    def __repr__(self) -> str:
+        return f"<brinell.Settled of {self._result.scenario.name!r}: {len(self.t)} samples of {len(self)} channels from {self.t[0]:g} s on>"
 
 
 class Result:
@@ -31,7 +69,7 @@ class Result:
     Examples
     --------
     >>> import brinell
-    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> result = brinell.simulate(scenario)
     >>> result.channels[:3]
     ['t', 'inner_x', 'inner_y']
@@ -107,6 +145,35 @@ class Result:
     def t(self) -> npt.NDArray[np.float64]:
         """Time of each sample, s."""
         return self.signals["t"]
+
+    def _first(self) -> int:
+        """Sample from which on the run is analysed."""
+        from_s = self.summary["quantities"]["analysed_from"]["value"]
+        # Nought where the run did not come so far.
+        first = round(from_s * self.rate_hz) if from_s else len(self)
+        if first >= len(self):
+            raise ValueError(f"the run ended at {self.t[-1]:g} s, before its start was over: it has no settled part")
+        return first
+
+    @property
+    def settled(self) -> Settled:
+        """The channels without the start of the run: ``settled["sensor_ax"]``, ``settled.t``.
+
+        The start is the load ramp and the transient after it. It is over at ``analysed_from`` (s, in `quantities`): a turn of the shaft after the
+        ramp, or half-way through the run, whichever comes first. Averages, forces and slip of the summary, spectra and `analyze` take the
+        same samples; `events` and `passes` are of the whole run. Where the signal still drifts after it, `warnings` says so and the number ``not_settled`` is 1.
+
+        Examples
+        --------
+        >>> import brinell
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
+        >>> result = brinell.simulate(scenario)
+        >>> float(result.settled.t[0]) == result.quantities["analysed_from"]
+        True
+        >>> result.settled["sensor_ax"].shape == result.settled.t.shape
+        True
+        """
+        return Settled(self)
 
     @property
     def channels(self) -> list[str]:
@@ -214,7 +281,7 @@ class Result:
             if isinstance(speed, list):
                 raise ValueError("speed_rpm: needed, for the scenario's varies")
             options["speed_rpm"] = speed
-        first = round(self.summary["quantities"]["analysed_from"]["value"] * self.rate_hz)
+        first = self._first()
         settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario, "simulated": True}
         if not options.keys() & {"bearing", "sensitivity", "simulated"}:
             settings["_run"] = (channel, first / self.rate_hz)
@@ -226,10 +293,10 @@ class Result:
         Examples
         --------
         >>> import brinell
-        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
         >>> frame = brinell.simulate(scenario).to_pandas()
         >>> frame.shape[0], frame.columns[0]
-        (1281, 't')
+        (25601, 't')
         """
         return tables.to_pandas(self.signals, self.units)
 
@@ -239,9 +306,9 @@ class Result:
         Examples
         --------
         >>> import brinell
-        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
         >>> brinell.simulate(scenario).to_polars().height
-        1281
+        25601
         """
         return tables.to_polars(self.signals)
 
@@ -251,7 +318,7 @@ class Result:
         Examples
         --------
         >>> import brinell
-        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
         >>> brinell.simulate(scenario).to_xarray().sensor_ax.attrs["units"]
         'm/s^2'
         """
@@ -270,7 +337,7 @@ class Result:
         Examples
         --------
         >>> import brinell, pathlib, tempfile
-        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
         >>> page = pathlib.Path(tempfile.mkdtemp(), "report.html")
         >>> page.write_text(brinell.simulate(scenario).to_html(), encoding="utf-8") > 100_000
         True
@@ -298,7 +365,8 @@ class Result:
         return plot.spectrum(_there(self.spectrum), to_hz=to_hz, ax=ax)
 
     def plot_envelope(self, *, to_hz: float | None = None, harmonics: int = 5, ax: Any = None) -> matplotlib.axes.Axes:
-        """The envelope spectrum; above it the harmonics of every defect frequency, those of the damage dashed through it."""
+        """The envelope spectrum; above it the harmonics of every defect frequency, those of the damage dashed through it: of the frequency that was
+        found, where one was, else of pure rolling; beside each stands which."""
         return plot.envelope(self, to_hz=to_hz, harmonics=harmonics, ax=ax)
 
     def plot_load_zone(self, *, row: int = 1, ax: Any = None) -> matplotlib.axes.Axes:

@@ -161,10 +161,10 @@ def sweep(
     Examples
     --------
     >>> import brinell
-    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
-    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "lumped"]})
-    >>> table.shape, list(table["simulation.model"])
-    ((2, 2), ['full', 'lumped', 'full', 'lumped'])
+    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
+    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "defects.0.depth_um": [1.0, 20.0]})
+    >>> table.shape, table["defects.0.depth_um"].tolist()
+    ((2, 2), [1.0, 20.0, 1.0, 20.0])
     >>> table.units["sensor_ax.rms"]
     'm/s^2'
     """

@@ -320,6 +320,10 @@ def test_regress_pictures(result, base, tmp_path):
         "analysis": brinell.analyze(longer["sensor_ax"], **settings).plot(),
         "psd": brinell.psd(x, rate_hz=result.rate_hz, unit="m/s^2").plot(),
     }
+    # The frequency that was found, not that of pure rolling, and which is which.
+    words, found = {text.get_text() for text in pictures["envelope"].texts}, longer.quantities["defect1.frequency"]
+    assert f"{found:.4g} Hz found" in words and any(word.endswith("Hz, pure rolling") for word in words)
+    assert found == pytest.approx(pictures["envelope"].lines[1].get_xdata()[0])
     for name, ax in pictures.items():
         ax.figure.savefig(tmp_path / f"{name}.png", dpi=110)
         assert (tmp_path / f"{name}.png").stat().st_size > 5000

@@ -4,6 +4,7 @@ import doctest
 import importlib
 import inspect
 import pkgutil
+import warnings
 
 import pytest
 from conftest import ROOT, blocks
@@ -20,7 +21,11 @@ def test_prop_examples_of_docstrings_run(name):
         module = importlib.import_module(name)
     except ImportError as error:
         pytest.skip(str(error))
-    failed, tried = doctest.testmod(module, optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE, raise_on_error=False)
+    flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+    with warnings.catch_warnings():
+        # What a reader copies gives no result that misleads.
+        warnings.simplefilter("error", brinell.ScenarioWarning)
+        failed, tried = doctest.testmod(module, optionflags=flags, raise_on_error=False)
     assert failed == 0 and tried > 0
 
 
@@ -41,4 +46,6 @@ def test_prop_examples_of_the_texts_run(name, monkeypatch):
     monkeypatch.chdir(ROOT)
     program = blocks(name)
     assert "brinell" in program
-    exec(compile(program, name, "exec"), {})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", brinell.ScenarioWarning)
+        exec(compile(program, name, "exec"), {})

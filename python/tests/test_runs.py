@@ -230,3 +230,30 @@ def test_prop_the_spread_of_a_run_has_what_was_run_by_hand(base):
     by_hand = brinell.simulate(healthy.replace({key["key"]: key["high"]}))
     assert by_hand.quantities["sensor_ax.rms"] == bar["at_high"]
     assert level["low"] <= level["value"] <= level["high"]
+
+
+def test_prop_the_settled_part_is_the_end_of_each_channel_and_what_averages_are_of(base):
+    result = brinell.simulate(base, settings={"simulation.duration_s": 0.5})
+    settled, from_s = result.settled, result.quantities["analysed_from"]
+    assert list(settled) == list(result) and "sensor_ax" in settled and len(settled) == len(result.channels)
+    # A turn at 1800 r/min after the load ramp, on the grid of samples.
+    assert settled.t[0] == from_s and from_s == pytest.approx(result.scenario["operation.load_ramp_s"] + 1.0 / 30.0, abs=1.0 / result.rate_hz)
+    for name in result:
+        np.testing.assert_array_equal(settled[name], result[name][result.t >= from_s])
+        assert np.shares_memory(settled[name], result[name])
+    whole_turns = round(result.quantities["analysed_turns"] / 30.0 * result.rate_hz)
+    # Averages are of whole turns, to within a sample.
+    mean_square = np.mean((settled["inner_x"][:whole_turns] - settled["inner_x"][:whole_turns].mean()) ** 2)
+    assert np.sqrt(mean_square) == pytest.approx(result.quantities["inner_x.standard_deviation"], rel=1e-2)
+    with pytest.raises(TypeError):
+        settled["sensor_ax"] = settled["sensor_ax"]
+    with pytest.raises(KeyError, match='sensr_ax.*did you mean "sensor_ax"'):
+        settled["sensr_ax"]
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(result)).settled.t, settled.t)
+
+
+def test_regress_a_run_that_ended_in_its_start_has_no_settled_part(base):
+    result = brinell.simulate(base)
+    result.summary["quantities"]["analysed_from"]["value"] = 0.0
+    with pytest.raises(ValueError, match="no settled part"):
+        _ = result.settled

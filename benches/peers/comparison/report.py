@@ -120,7 +120,7 @@ def page(peers, programs, problem, cli, args):
         lines.append(f"| {name} | {target} | {' | '.join(found)} |")
     lines += [
         "",
-        "![Cost against error of every solver](pictures/work-precision.png)",
+        '![Cost against error of every solver](pictures/work-precision.png "drawn by benches/peers/run.py")',
         "",
         "Every run is in `peers.csv`. The trajectory that errors are measured against moves by "
         f"{100 * trust:.1g} % itself when its step is doubled:",

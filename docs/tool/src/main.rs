@@ -5,11 +5,14 @@
 //! writes `target/book/index.html`. LaTeX becomes MathML here, so that the pages need no network and no script to show
 //! equations. The build fails on a formula that does not parse, on an equation of the paper that is missing or appears
 //! twice, and on a link that leads nowhere. Where the variable BRINELL names a `brinell` command, every scenario in the
-//! text is checked by it and every console example is run and compared.
+//! text is checked by it, every console example is run and compared, and every picture held against what its page's
+//! commands write; with the word `renew` behind `--` those that differ are replaced. `renew gallery/photo` takes the
+//! pages whose path contains that alone.
 
 mod examples;
 mod links;
 mod math;
+mod pictures;
 
 use mdbook_driver::MDBook;
 use mdbook_driver::errors::{Error, Result};
@@ -18,6 +21,13 @@ use std::path::{Path, PathBuf};
 
 fn main() -> Result<()> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let renewed = words.iter().any(|word| word == "renew");
+    let only = words.iter().find(|word| *word != "renew").map_or("", String::as_str);
+    // First, so that pages with new pictures have them.
+    if renewed {
+        try_examples(&docs, only, renewed)?;
+    }
     let mut book = MDBook::load(&docs)?;
     let out = book.build_dir_for("html");
     book.with_preprocessor(math::Equations);
@@ -31,11 +41,21 @@ fn main() -> Result<()> {
     let out = out.canonicalize()?;
     let pages = links::check(&out)?;
     println!("{pages} pages, no broken link: {}", out.join("index.html").display());
+    if !renewed {
+        try_examples(&docs, only, renewed)?;
+    }
+    Ok(())
+}
+
+fn try_examples(docs: &Path, only: &str, renewed: bool) -> Result<()> {
     match std::env::var_os("BRINELL") {
         Some(command) => {
             let command = PathBuf::from(command).canonicalize()?;
-            let counts = examples::check(&docs, &command)?;
-            println!("{} scenarios sound, {} console examples as shown", counts.0, counts.1);
+            let held = examples::check(docs, &command, only, renewed)?;
+            println!(
+                "{} scenarios sound, {} console examples as shown, {} pictures as their commands make them",
+                held.scenarios, held.commands, held.pictures
+            );
         }
         None => println!("examples not checked: BRINELL names no command"),
     }

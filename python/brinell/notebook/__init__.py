@@ -46,10 +46,10 @@ def studio(scenario: Runnable | None = None) -> Studio:
     Examples
     --------
     >>> import brinell
-    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
     >>> studio = brinell.studio(scenario)
     >>> studio.run()["sensor_ax"].shape
-    (1281,)
+    (25601,)
     """
     tables.need("anywidget")
     from brinell.notebook.widget import Studio

@@ -8,6 +8,8 @@ use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 
 /// Largest photo on a page, px.
 const TALLEST: f64 = 560.0;
+/// Narrowest picture, px: its title stays a few lines.
+const LEAST: f64 = 240.0;
 /// Share of the photo's width that the scale bar takes at most.
 const BAR: f64 = 0.3;
 
@@ -17,10 +19,16 @@ pub fn damage_photo(view: &DamageView, index: usize, layout: Layout) -> Option<P
     let rows = photo.grey.len().checked_div(photo.columns).filter(|rows| *rows > 0)?;
     let (width, font) = (layout.size(0.0).width, layout.size(0.0).font);
     let scale = (width / photo.columns as f64).min(TALLEST / rows as f64);
+    let right = scale * photo.columns as f64;
+    // As wide as the photo; print is as wide as was asked.
+    let width = match layout {
+        Layout::Wide | Layout::Narrow => right.max(LEAST),
+        Layout::Print(_) => width,
+    };
     let title = format!("{}. The photo {} and the outline read from it", view.title, photo.file);
     let mut picture = Picture::new(&format!("damage-{}-photo", index + 1), &title, width, 0.0);
     let top = heading(&mut picture, &title, 0.0, width, font);
-    let place = Rect { left: 0.0, top, right: scale * photo.columns as f64, bottom: top + scale * rows as f64 };
+    let place = Rect { left: 0.0, top, right, bottom: top + scale * rows as f64 };
     // A phone needs half of the pixels.
     let step = if layout == Layout::Narrow && photo.columns > 400 { 2 } else { 1 };
     let line = |row: usize| {
@@ -39,7 +47,7 @@ pub fn damage_photo(view: &DamageView, index: usize, layout: Layout) -> Option<P
         picture.shapes.push(Shape::Path { lines: lines.clone(), close: true, paint, clip: Some(place) });
     }
     scale_bar(&mut picture, place, scale / photo.mm_per_pixel, font);
-    picture.height = place.bottom + 2.0;
+    picture.height = place.bottom;
     Some(picture)
 }
 
