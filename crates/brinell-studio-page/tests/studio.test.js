@@ -264,7 +264,7 @@ describe("the page", () => {
       assert.ok(await page.isVisible("dialog"));
       await until(page, () => / mm²/.test(document.querySelector("dialog").textContent));
       await page.click('dialog button:has-text("Add to the damage")');
-      await settled(page);
+      await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 2);
       assert.deepEqual(
         (await scenario(page)).defects.map((d) => Object.keys(d.shape)[0]),
         ["rectangle", "outline"],
