@@ -336,7 +336,8 @@ describe("saving", () => {
         }, text);
         assert.equal(parsed[0], "svg", name);
         assert.deepEqual([Number(parsed[1]), Number(parsed[2])].map(Math.round), [w, h].map(Math.round), name);
-        assert.ok(parsed[3] > 4 && !text.includes("NaN"), name);
+        // The letters of a picture within may spell anything.
+        assert.ok(parsed[3] > 4 && !text.replace(/base64,[^"]*/g, "").includes("NaN"), name);
         names.add(name);
         // The PNG is made of the SVG, whatever the width. Without it Chromium would drop what goes beyond ten downloads a second.
         if (width < 1280) {
