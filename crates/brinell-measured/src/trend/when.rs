@@ -43,11 +43,6 @@ impl TimeUnit {
     pub(super) fn seconds(self) -> f64 {
         self.row().2
     }
-
-    /// The shorter of two.
-    fn min_of(self, other: Self) -> Self {
-        if self.seconds() < other.seconds() { self } else { other }
-    }
 }
 
 /// When each record was taken, and what these times count.
@@ -166,8 +161,9 @@ impl Times {
     /// The unit in which a span of time is 1 or more, where there is one, and how many of them one of [`word`](Self::word) is.
     pub fn counted(&self, span: f64) -> (&'static str, f64) {
         let Some(unit) = self.unit else { return ("record", 1.0) };
-        let fits = TimeUnit::ALL.into_iter().rev().find(|one| one.seconds() <= span * unit.seconds());
-        let of = fits.unwrap_or(TimeUnit::Second).min_of(unit);
+        let longest = unit.seconds() * span.min(1.0);
+        let fits = TimeUnit::ALL.into_iter().rev().find(|one| one.seconds() <= longest);
+        let of = fits.unwrap_or(TimeUnit::Second);
         (of.word(), unit.seconds() / of.seconds())
     }
 
