@@ -34,9 +34,11 @@ use std::path::PathBuf;
     With machines, snapshots and a table [history] in place of runs, each machine has a history: healthy, damaged, failed. `brinell init \
     plan.toml --template histories` writes one.\n\n\
     In the folder:\n  \
-    runs/part-00000.parquet    one row a run: signals, parameters, labels, ground truth, solver's work\n  \
+    runs/part-00000.parquet    one row a run: signals, what a model may be given, labels\n  \
+    truth/part-00000.parquet   of the same rows damage, entries, forces, warnings, scenario\n  \
     dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
-    held_out/                  labels of the runs that `held_out` sets apart\n  \
+    README.md                  the card: splits, classes, what two simple classifiers tell\n  \
+    held_out/                  labels and truth of the runs that `held_out` sets apart\n  \
     sheet.html                 a few runs of each class to look at: `brinell dataset sheet`\n  \
     work/                      finished runs of unfinished files\n\n\
     The same command resumes where it stopped, and changes nothing that is there. The files' bytes depend on plan, version, kernel \

@@ -49,9 +49,31 @@ fn make(folder: &Path, more: &[&str]) -> Call {
     brinell(folder, &[&["dataset", "plan.toml"], more].concat())
 }
 
-pub(crate) fn rows(path: &Path) -> Vec<Row> {
+/// Rows of a file.
+fn rows_of(path: &Path) -> Vec<Row> {
     let reader = SerializedFileReader::new(fs::File::open(path).unwrap()).unwrap();
     reader.get_row_iter(None).unwrap().map(Result::unwrap).collect()
+}
+
+/// Rows of a file of runs, with the truth beside it where it is open.
+pub(crate) fn rows(path: &Path) -> Vec<Row> {
+    let beside = path.parent().unwrap().with_file_name("truth").join(path.file_name().unwrap());
+    let runs = rows_of(path);
+    if !beside.exists() {
+        return runs;
+    }
+    let truth = rows_of(&beside);
+    assert_eq!(truth.len(), runs.len());
+    let join = |(run, truth): (Row, Row)| {
+        assert_eq!(cell(&run, "run"), cell(&truth, "run"));
+        Row::new(run.into_columns().into_iter().chain(truth.into_columns().into_iter().skip(1)).collect())
+    };
+    runs.into_iter().zip(truth).map(join).collect()
+}
+
+/// Whether a row does not tell a value: it has no such column, or nothing in it.
+fn is_hidden(row: &Row, name: &str) -> bool {
+    row.get_column_iter().find(|(n, _)| *n == name).is_none_or(|(_, field)| *field == Field::Null)
 }
 
 fn cell<'a>(row: &'a Row, name: &str) -> &'a Field {

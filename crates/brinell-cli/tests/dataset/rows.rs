@@ -1,6 +1,8 @@
 //! What a row says of its run, and where held-out labels lie.
 
-use super::{PLAN, SECRET, brinell, cell, files, folder_with, json, list, make, parsed, rows, text};
+use super::{
+    PLAN, SECRET, brinell, cell, files, folder_with, is_hidden, json, list, make, parsed, rows, rows_of, text,
+};
 use brinell_study::dataset::sheet;
 use parquet::record::{Field, Row};
 use std::fs;
@@ -49,6 +51,69 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     assert_eq!(about["runs"]["complete"], 7);
     let unit = about["columns"].as_array().unwrap().iter().find(|c| c["name"] == "sensor_ax").unwrap();
     assert_eq!(unit["unit"], "m/s^2");
+}
+
+#[test]
+fn prop_beside_the_signals_nothing_but_the_label_tells_the_label() {
+    let folder = folder_with(PLAN);
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    let out = folder.path().join("out");
+    let names = |path: &str| -> Vec<String> {
+        rows_of(&out.join(path))[0].get_column_iter().map(|(name, _)| name.clone()).collect()
+    };
+    let known = "run split status sensor_ax sensor_ay sample_rate_hz duration_s analysed_from_s bearing rows rollers_per_row speed_rpm load_n \
+                 ftf_hz bpfo_hz bpfi_hz bsf_hz operation.speed_rpm class label reason";
+    assert_eq!(names("runs/part-00000.parquet"), known.split_whitespace().collect::<Vec<_>>());
+    let truth = names("truth/part-00000.parquet");
+    assert_eq!(truth[0], "run");
+    for name in ["warnings", "audit_energy_parametric_j", "defects.0.depth_um", "defect_on", "entry_t_s", "scenario"] {
+        assert!(truth.iter().any(|column| column == name), "{name}");
+    }
+    let about = json(&out.join("dataset.json"));
+    for (table, file) in [("runs", "runs/part-00000.parquet"), ("truth", "truth/part-00000.parquet")] {
+        let columns = about["columns"].as_array().unwrap().iter().filter(|c| c["table"] == table || c["name"] == "run");
+        let columns: Vec<&str> = columns.map(|c| c["name"].as_str().unwrap()).collect();
+        assert_eq!(columns, names(file), "{table}");
+    }
+    // What may lie elsewhere may do so as a whole, and a file of it is checked as others are.
+    let part = out.join("truth/part-00001.parquet");
+    let bytes = fs::read(&part).unwrap();
+    fs::write(&part, [&bytes[..bytes.len() - 1], b"?"].concat()).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(1)
+        .complains(&["truth/part-00001.parquet: its checksum is another than when it was written"]);
+    fs::remove_file(&part).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(1).complains(&[
+        "truth/part-00001.parquet is missing, and others are here: remove the file of that name in runs/",
+    ]);
+    fs::remove_dir_all(out.join("truth")).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(0).says(&["truth/ is not here"]);
+    // And the sheet does without.
+    brinell(folder.path(), &["dataset", "sheet", "out", "-q"]).exits(0);
+}
+
+#[test]
+fn prop_the_card_says_how_hard_the_runs_are_to_tell_apart() {
+    let plan = PLAN
+        .replace("runs = 7", "runs = 24")
+        .replace("[vary]", "[vary]\nsimulation.duration_s = 0.4\nsensor.noise_rms_m_per_s2 = 0.2");
+    let folder = folder_with(&plan.replace("log = [5, 20]", "log = [20, 60]"));
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    let card = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    let (_, section) = card.split_once("\n## Baselines\n").unwrap();
+    for words in
+        ["`sensor_ax`", "Each of 5 parts", "| none: guessing | 50 % |", "| features | right | 95 % | healthy | outer |"]
+    {
+        assert!(section.contains(words), "{words} in {section}");
+    }
+    // Deep damage in little noise: by the envelope's lines more are told than three standard deviations beyond guessing.
+    let line = section.lines().find(|line| line.starts_with("| envelope")).unwrap();
+    let share: f64 = line.split('|').nth(2).unwrap().trim().trim_end_matches(" %").parse().unwrap();
+    assert!(share > 81.0 && line.contains(" of 12 |"), "{line}");
+    // Too few to learn from: nothing is said.
+    let folder = folder_with(PLAN);
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    assert!(!fs::read_to_string(folder.path().join("out/README.md")).unwrap().contains("Baselines"));
 }
 
 #[test]
@@ -159,17 +224,19 @@ fn prop_held_out_labels_lie_apart() {
         let labels = out.join(format!("held_out/part-0000{part}.parquet"));
         // Runs of a file are for one thing.
         assert_eq!(labels.exists(), file["split"] == "held_out");
+        assert_eq!(out.join(format!("truth/part-0000{part}.parquet")).exists(), !labels.exists());
         assert!(open.iter().all(|row| text(row, "split").as_deref() == file["split"].as_str()));
-        let held = if labels.exists() { rows(&labels) } else { Vec::new() };
+        let held = if labels.exists() { rows_of(&labels) } else { Vec::new() };
         let mut held = held.iter();
         for row in &open {
             let is_held = text(row, "split").as_deref() == Some("held_out");
             for name in secret {
-                assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
+                assert_eq!(is_hidden(row, name), is_held || name == "reason", "{name}");
             }
-            for name in ["entry_t_s", "defect_on", "largest_contact_force_n", "defects.0.depth_um", "work_steps"] {
-                assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
+            for name in ["entry_t_s", "defect_on", "largest_contact_force_n", "work_steps", "warnings"] {
+                assert_eq!(is_hidden(row, name), is_held, "{name}");
             }
+            assert!(!is_held || is_hidden(row, "defects.0.depth_um"));
             // What a sensor knows stays.
             assert_eq!(list(row, "sensor_ax").unwrap().len(), 512);
             assert!(matches!(cell(row, "operation.speed_rpm"), Field::Double(_)));

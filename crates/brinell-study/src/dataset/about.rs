@@ -18,6 +18,9 @@ pub(crate) struct About {
     pub(crate) runs: Runs,
     pub(crate) runs_per_file: u64,
     pub(crate) files: Files,
+    /// Of the truth of open runs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) truth: Vec<Facts>,
     pub(crate) splits: Vec<Split>,
     pub(crate) classes: Vec<Class>,
     pub(crate) design: String,
@@ -172,8 +175,6 @@ pub(crate) struct Histories {
     /// Of a machine at most.
     pub(crate) snapshots: u64,
     pub(crate) assumed: String,
-    /// Columns that no model may be given.
-    pub(crate) truth: Vec<String>,
 }
 
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -191,6 +192,8 @@ pub(crate) struct ColumnOf {
     pub(crate) kind: String,
     pub(crate) unit: String,
     pub(crate) description: String,
+    /// `runs` or `truth`.
+    pub(crate) table: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) held_out: Option<bool>,
 }
@@ -240,7 +243,7 @@ pub(crate) struct Sum {
 /// A finished file of the data set: what is written down of it, and its entry in a description.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Facts {
-    /// In a description.
+    /// Of runs in a description alone.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) path: String,
     pub(crate) rows: u64,
@@ -257,9 +260,9 @@ pub(crate) struct Facts {
     pub(crate) split: Option<String>,
 }
 
-/// The file of runs of a part, and that of labels that are held out.
+/// The file of runs of a part, and that of their truth; none where it was taken elsewhere before it was written down.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PartFacts {
     pub(crate) runs: Facts,
-    pub(crate) held_out: Option<Facts>,
+    pub(crate) truth: Option<Facts>,
 }

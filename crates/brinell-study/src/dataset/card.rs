@@ -2,8 +2,10 @@
 //! that read MLCommons' Croissant.
 
 use crate::dataset::about::{About, ColumnOf, Facts, Histories, Runs, Split, Sum};
+use crate::dataset::baseline::baselines;
+use crate::dataset::columns::RUN;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{put, written};
+use crate::dataset::folder::{TRUTH, put, written};
 use crate::dataset::tally::Tally;
 use crate::design::Part;
 use brinell::made_by::digest;
@@ -26,7 +28,9 @@ pub(crate) const CROISSANT: &str = "croissant.json";
 pub(crate) fn write(folder: &Path, about: &About) -> Result<Sum, DatasetError> {
     let readme = folder.join("README.md");
     if !readme.exists() {
-        put(&readme, &card(about))?;
+        let names: Vec<String> = about.classes.iter().map(|class| in_cell(&class.name)).collect();
+        let baselines = baselines(folder, about)?.map_or_else(String::new, |found| found.section(&names));
+        put(&readme, &(card(about) + &baselines))?;
     }
     let text = written(&croissant(about));
     put(&folder.join(CROISSANT), &text)?;
@@ -38,14 +42,24 @@ fn one_line(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Paths of the files of each split.
-fn paths(about: &About) -> Vec<(String, Vec<&str>)> {
-    let mut splits: Vec<(String, Vec<&str>)> = Vec::new();
+/// A name in a cell of a table.
+fn in_cell(name: &str) -> String {
+    one_line(name).replace('|', "\\|")
+}
+
+/// Paths of the files of runs of each split, and of those with the truth beside them.
+fn paths(about: &About) -> Vec<(String, Vec<&str>, Vec<&str>)> {
+    let mut splits: Vec<(String, Vec<&str>, Vec<&str>)> = Vec::new();
     for file in about.listed() {
         let split = file.split.clone().unwrap_or_default();
-        match splits.last_mut() {
-            Some((last, paths)) if *last == split => paths.push(&file.path),
-            _ => splits.push((split, vec![&file.path])),
+        if splits.last().is_none_or(|(last, ..)| *last != split) {
+            splits.push((split, Vec::new(), Vec::new()));
+        }
+        let name = |path: &str| path.rsplit('/').next().map(ToOwned::to_owned);
+        let beside = about.truth.iter().find(|truth| name(&truth.path) == name(&file.path));
+        if let Some((_, runs, truth)) = splits.last_mut() {
+            runs.push(&file.path);
+            truth.extend(beside.map(|truth| &*truth.path));
         }
     }
     splits
@@ -85,7 +99,7 @@ fn counts(about: &About) -> String {
     for (k, class) in about.classes.iter().enumerate() {
         let good = |split: &Tally| at(&split.runs, k) - at(&split.failed, k);
         let runs: String = open.iter().map(|split| format!(" {} |", good(&split.tally()))).collect();
-        let name = one_line(&class.name).replace('|', "\\|");
+        let name = in_cell(&class.name);
         card += &format!("| {name} | {} |{runs}{}\n", class.label, failed(at(&tally.failed, k)));
     }
     card += &format!("\n| split | runs |{head}\n| --- | --- |{rule}\n");
@@ -119,13 +133,20 @@ fn card(about: &About) -> String {
     };
     let _ = write!(
         card,
-        "tags:\n- vibration\n- rolling-bearing\n- fault-diagnosis\n- simulated\nsize_categories:\n- {size}\nconfigs:\n- config_name: default\n  data_files:\n"
+        "tags:\n- vibration\n- rolling-bearing\n- fault-diagnosis\n- simulated\nsize_categories:\n- {size}\nconfigs:\n"
     );
-    for (split, paths) in paths(about) {
-        let _ = writeln!(card, "  - split: {split}\n    path:");
-        for path in paths {
-            let _ = writeln!(card, "    - {}", quoted(path));
-        }
+    let paths = paths(about);
+    let config = |name: &str, splits: Vec<(&String, &Vec<&str>)>| {
+        let files =
+            |paths: &Vec<&str>| paths.iter().map(|path| format!("    - {}\n", quoted(path))).collect::<String>();
+        let splits = splits.into_iter().filter(|(_, paths)| !paths.is_empty());
+        let splits: String =
+            splits.map(|(split, paths)| format!("  - split: {split}\n    path:\n{}", files(paths))).collect();
+        format!("- config_name: {name}\n  data_files:\n{splits}")
+    };
+    card += &config("default", paths.iter().map(|(split, runs, _)| (split, runs)).collect());
+    if !about.truth.is_empty() {
+        card += &config(TRUTH, paths.iter().map(|(split, _, truth)| (split, truth)).collect());
     }
     let _ = write!(card, "---\n\n# {}\n\n{}\n\n", one_line(&about.name), description(about));
     card += &counts(about);
@@ -134,33 +155,32 @@ fn card(about: &About) -> String {
     let _ = write!(
         card,
         "\nOne row is one run. Signals: {}; sample k is at k / `sample_rate_hz`. `dataset.json` lists every column with its unit and meaning, the bearing's \
-         geometry, and what was assumed.\n\n```python\nfrom datasets import load_dataset\nruns = load_dataset(\"path/to/this/folder\")\n```\n",
+         geometry, and what was assumed.\n\n```python\nfrom datasets import load_dataset\nruns = load_dataset(\"path/to/this/folder\")\ntruth = load_dataset(\"path/to/this/folder\", \"{TRUTH}\")   \
+         # the same rows: join by `run`\n```\n\n`{TRUTH}/` has what gives a label away and what no test rig tells: the damage, each entry and exit of a \
+         rolling element, forces, slip, warnings, the whole scenario. **No model may be given it.** Nor is a model to be given `run`: classes take turns, so that \
+         its remainder by the number of classes tells the class.\n",
         signals.join(", ")
     );
     if let Some(histories) = &about.histories {
         card += &life(histories);
     }
     if about.splits.iter().any(|split| split.name == Part::HeldOut.word()) {
-        card += "\nThe labels of the split `held_out` are not published. Its runs have signals, speed and load.\n";
+        card +=
+            "\nLabels and truth of the split `held_out` are not published. Its runs have signals, speed and load.\n";
     }
     card
 }
 
 /// What is assumed of machines that run to failure, and what may not be given to a model.
 fn life(histories: &Histories) -> String {
-    let truth: Vec<String> = histories.truth.iter().map(|name| format!("`{name}`")).collect();
     format!(
         "\n## Histories\n\nEach of the {} machines has up to {} rows, its life in snapshots: `machine`, `snapshot`, `time_h`. They come at an interval that has nothing to do with \
          the life, from new on, and one at failure where that is seen. A machine is healthy, is damaged, and \
          counts as failed when its damage has a stated length; nothing else fails. A machine belongs to one split as a whole.\n\n**How damage grows is an \
-         assumption, and no prediction**: {}. What a model learns of the remaining life is this law, and no bearing's.\n\nColumns that no test rig tells, \
-         and that no model may be given: {}. Nor is it to be given `run` and `machine`: classes take turns, so that the remainder of the machine's number \
-         divided by the number of classes tells the class. Of a machine give it the rows up to the one that it is asked about, and not how many follow: the last \
+         assumption, and no prediction**: {}. What a model learns of the remaining life is this law, and no bearing's.\n\nLife, state and size \
+         of the damage are in `{TRUTH}/`. `machine` is no feature either, as `run` is none. Of a machine give it the rows up to the one that it is asked about, and not how many follow: the last \
          `time_h` of a machine that is run to failure is its life.\n",
-        histories.machines,
-        histories.snapshots,
-        histories.assumed,
-        truth.join(", ")
+        histories.machines, histories.snapshots, histories.assumed
     )
 }
 
@@ -172,11 +192,16 @@ fn croissant(about: &About) -> Value {
             "contentSize": format!("{} B", file.bytes), "encodingFormat": "application/x-parquet", "sha256": file.sha256,
         })
     };
-    let mut distribution: Vec<Value> = about.listed().iter().map(file).collect();
-    distribution.push(json!({
-        "@type": "cr:FileSet", "@id": "runs", "name": "runs", "encodingFormat": "application/x-parquet", "includes": "runs/*.parquet",
+    let mut distribution: Vec<Value> = about.listed().iter().chain(&about.truth).map(file).collect();
+    let tables: &[(&str, &str)] =
+        if about.truth.is_empty() { &[("runs", "run")] } else { &[("runs", "run"), (TRUTH, TRUTH)] };
+    distribution.extend(tables.iter().map(|(files, _)| {
+        json!({
+            "@type": "cr:FileSet", "@id": files, "name": files, "encodingFormat": "application/x-parquet",
+            "includes": format!("{files}/*.parquet"),
+        })
     }));
-    let field = |column: &ColumnOf| {
+    let field = |column: &ColumnOf, (files, record): &(&str, &str)| {
         let kind = &*column.kind;
         let inner = kind.strip_prefix("list<").and_then(|k| k.strip_suffix('>'));
         let data_type = match inner.unwrap_or(kind) {
@@ -186,15 +211,21 @@ fn croissant(about: &About) -> Value {
             _ => "sc:Text",
         };
         let mut field = json!({
-            "@type": "cr:Field", "@id": format!("run/{}", column.name), "name": column.name,
+            "@type": "cr:Field", "@id": format!("{record}/{}", column.name), "name": column.name,
             "description": format!("{} ({})", column.description, column.unit), "dataType": data_type,
-            "source": { "fileSet": { "@id": "runs" }, "extract": { "column": column.name } },
+            "source": { "fileSet": { "@id": files }, "extract": { "column": column.name } },
         });
         if inner.is_some() {
             field["repeated"] = true.into();
         }
         field
     };
+    let records = tables.iter().map(|table| {
+        let is_in = |column: &&ColumnOf| column.table == table.0 || column.name == RUN;
+        let fields: Vec<Value> = about.columns.iter().filter(is_in).map(|column| field(column, table)).collect();
+        json!({ "@type": "cr:RecordSet", "@id": table.1, "name": table.1, "field": fields })
+    });
+    let records: Vec<Value> = records.collect();
     let mut all = Map::new();
     for (key, value) in [
         ("@context", serde_json::from_str(CONTEXT).unwrap_or_default()),
@@ -204,13 +235,7 @@ fn croissant(about: &About) -> Value {
         ("description", description(about).into()),
         ("license", about.licence.as_deref().into()),
         ("distribution", distribution.into()),
-        (
-            "recordSet",
-            json!([{
-                "@type": "cr:RecordSet", "@id": "run", "name": "run",
-                "field": about.columns.iter().map(field).collect::<Vec<_>>(),
-            }]),
-        ),
+        ("recordSet", Value::Array(records)),
     ] {
         if !value.is_null() {
             all.insert(key.into(), value);

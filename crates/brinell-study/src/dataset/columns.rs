@@ -13,13 +13,24 @@ use brinell::signal::Estimate;
 use brinell::simulate::Outcome;
 use brinell_io::{Cell, Column, Kind, RecordColumn};
 
+/// Where a column lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Table {
+    /// In `runs/`: what a model may be given.
+    Runs,
+    /// In `runs/`, and of runs whose labels are held out in `held_out/`.
+    Labels,
+    /// In `truth/`, and of runs whose labels are held out in `held_out/`: it gives the label away, or no sensor tells it.
+    Truth,
+}
+
 /// A column of a data set's files.
 #[derive(Debug, Clone)]
 pub struct DataColumn {
     /// Name, unit, description, kind.
     pub record: RecordColumn,
-    /// Whether it is a label or gives one away: for runs that are held out it lies in the other file.
-    pub tells: bool,
+    /// Where it lies.
+    pub table: Table,
     source: Source,
 }
 
@@ -59,12 +70,22 @@ impl Source {
 }
 
 impl DataColumn {
-    fn new(name: &str, unit: &str, description: impl Into<String>, tells: bool, source: Source) -> Self {
+    fn new(name: &str, unit: &str, description: impl Into<String>, table: Table, source: Source) -> Self {
         Self {
             record: RecordColumn { column: Column::new(name, unit, description.into()), kind: source.kind() },
-            tells,
+            table,
             source,
         }
+    }
+
+    /// Whether it lies among the runs.
+    pub(crate) fn is_with_runs(&self) -> bool {
+        self.table != Table::Truth
+    }
+
+    /// Whether it lies in the file beside that of the runs, by which it is joined too.
+    pub(crate) fn is_apart(&self, are_held_out: bool) -> bool {
+        self.record.column.name == RUN || self.table == Table::Truth || are_held_out && self.table == Table::Labels
     }
 
     /// The cell of a run; a signal moves out of it.
@@ -94,6 +115,8 @@ impl DataColumn {
 /// Name, unit, description and source of a column that every data set has.
 type Fixed = (&'static str, &'static str, &'static str, Source);
 
+/// Column of a run's number, which every file has.
+pub(crate) const RUN: &str = "run";
 /// Place of `status` in a row.
 const STATUS: usize = 2;
 /// Column of a run's class, as a number.
@@ -111,7 +134,7 @@ pub(crate) fn is_failed(cells: &[Cell]) -> bool {
 /// Before the signals: what a run is.
 #[rustfmt::skip]
 const HEAD: [Fixed; 3] = [
-    ("run", "1", "index of the run, from 0", Whole(|r| Some(r.index))),
+    (RUN, "1", "index of the run, from 0", Whole(|r| Some(r.index))),
     ("split", "1", "train, validation or test; all train where the plan does not divide; held_out where the labels are in files of their own",
         Words(|r| Some(r.draws.part(r.index).word().into()))),
     ("status", "1", "complete or failed", Words(|r| Some(if r.failed.is_some() { "failed" } else { "complete" }.into()))),
@@ -143,25 +166,30 @@ const KNOWN: [Fixed; 12] = [
 
 /// What a machine has beside: its bearings, and which of them is damaged.
 #[rustfmt::skip]
-const OF_MACHINES: [(Fixed, bool); 2] = [
+const OF_MACHINES: [(Fixed, Table); 2] = [
     (("bearings", "1", "catalogue names of the bearings, in the file's order", WordsList(|r| {
         let bearings = r.scenario()?.bearings();
         Some(bearings.into_iter().map(|one| one.bearing.preset.unwrap_or_default()).collect())
-    })), false),
+    })), Table::Runs),
     (("damaged_bearing", "1", "number of the bearing that is damaged, from 1; 0: none. What is said of contacts, cage and slip is of this one, or of the first",
         Whole(|r| {
             let scenario = r.scenario()?;
             let lead = scenario.machine.as_ref()?.lead;
             Some(if scenario.defects.is_empty() { 0 } else { lead + 1 })
-        })), true),
+        })), Table::Labels),
 ];
 
-/// Last: labels, and what no test rig tells.
+/// The labels.
 #[rustfmt::skip]
-const TRUTH: [Fixed; 55] = [
+const LABELS: [Fixed; 3] = [
     ("class", "1", "label of the run", Words(|r| Some(r.draws.plan().classes[r.class()].name.clone()))),
     (LABEL, "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
     ("reason", "1", "why the run failed", Words(|r| r.failed.clone())),
+];
+
+/// What gives a label away, and what no test rig tells.
+#[rustfmt::skip]
+const TRUTH: [Fixed; 52] = [
     ("defect_on", "1", "of each defect: outer-raceway, inner-raceway or roller", WordsList(|r| r.defects(|d, _| d.on.word().to_owned()))),
     ("defect_row", "1", "of each defect: row, from 1", Wholes(|r| r.defects(|d, _| d.row))),
     ("defect_roller", "1", "of each defect: roller of the row, from 1; 0 on a raceway", Wholes(|r| r.defects(|d, _| match d.on {
@@ -243,42 +271,32 @@ const TRUTH: [Fixed; 55] = [
 
 /// What a snapshot of a machine's life has beside: which one it is, and the truth of that life.
 #[rustfmt::skip]
-const OF_HISTORIES: [(Fixed, bool); 18] = [
-    (("machine", "1", "number of the machine, from 0: its rows are its life. No feature: classes take turns, so that it tells the class", Whole(|r| Some(r.snapshot()?.machine))), false),
-    (("snapshot", "1", "number of the snapshot of this machine, from 0: one every history.every_h, which has nothing to do with the life", Whole(|r| Some(r.snapshot()?.number))), false),
+const OF_HISTORIES: [(Fixed, Table); 18] = [
+    (("machine", "1", "number of the machine, from 0: its rows are its life. No feature: classes take turns, so that it tells the class", Whole(|r| Some(r.snapshot()?.machine))), Table::Runs),
+    (("snapshot", "1", "number of the snapshot of this machine, from 0: one every history.every_h, which has nothing to do with the life", Whole(|r| Some(r.snapshot()?.number))), Table::Runs),
     (("time_h", "h", "running time since the machine was new. Of a machine that is run to failure the last one is the life: to a model give the rows up to its own, and not how many follow",
-        Number(|r| Some(r.snapshot()?.time_h))), false),
-    (("state", "1", "healthy, damaged or failed: damage has the length of failure", Words(|r| Some(r.snapshot()?.state().word().into()))), true),
-    (("life_share", "1", "share of the life that is over; none of a machine that stays healthy", Number(|r| r.snapshot()?.share())), true),
-    (("life_h", "h", "running time until failure, which is by the size of damage alone", Number(|r| r.snapshot()?.life())), true),
-    (("remaining_life_h", "h", "running time from this snapshot until failure", Number(|r| r.snapshot()?.remaining())), true),
-    (("censored", "1", "whether the machine's failure is not among its snapshots; a run that failed (`status`) may be the one of the failure", Flag(|r| Some(r.snapshot()?.is_censored()))), true),
-    (("damage_begins_h", "h", "running time at which damage begins", Number(|r| r.snapshot()?.begins())), true),
-    (("damage_fails_mm", "mm", "length of damage at which the machine counts as failed", Number(|r| r.snapshot()?.fails())), true),
+        Number(|r| Some(r.snapshot()?.time_h))), Table::Runs),
+    (("state", "1", "healthy, damaged or failed: damage has the length of failure", Words(|r| Some(r.snapshot()?.state().word().into()))), Table::Truth),
+    (("life_share", "1", "share of the life that is over; none of a machine that stays healthy", Number(|r| r.snapshot()?.share())), Table::Truth),
+    (("life_h", "h", "running time until failure, which is by the size of damage alone", Number(|r| r.snapshot()?.life())), Table::Truth),
+    (("remaining_life_h", "h", "running time from this snapshot until failure", Number(|r| r.snapshot()?.remaining())), Table::Truth),
+    (("censored", "1", "whether the machine's failure is not among its snapshots; a run that failed (`status`) may be the one of the failure", Flag(|r| Some(r.snapshot()?.is_censored()))), Table::Truth),
+    (("damage_begins_h", "h", "running time at which damage begins", Number(|r| r.snapshot()?.begins())), Table::Truth),
+    (("damage_fails_mm", "mm", "length of damage at which the machine counts as failed", Number(|r| r.snapshot()?.fails())), Table::Truth),
     (("outline_s_mm", "mm", "corners of the damage seen from above: s, counter-clockwise along the surface from `defect_center_deg`, which is that of the shape at failure and stays; empty without damage",
-        Numbers(|r| r.outline(0))), true),
-    (("outline_z_mm", "mm", "the same: z, along the axis from the middle of the rolling element", Numbers(|r| r.outline(1))), true),
+        Numbers(|r| r.outline(0))), Table::Truth),
+    (("outline_z_mm", "mm", "the same: z, along the axis from the middle of the rolling element", Numbers(|r| r.outline(1))), Table::Truth),
     (("revolutions", "1", "turns of the shaft since the machine was new; each snapshot's speed holds from the one before it; none where the speed varies within a snapshot",
-        Number(|r| r.snapshot()?.turns.map(|turns| turns[0].round()))), false),
+        Number(|r| r.snapshot()?.turns.map(|turns| turns[0].round()))), Table::Runs),
     (("load_cycles", "1", "passes of rolling elements over the place of the damage since the machine was new, in pure rolling, unloaded ones too: outside the load zone no force passes; none where the speed varies within a snapshot",
-        Number(|r| r.passes(0))), true),
-    (("load_cycles_damaged", "1", "the same since damage began", Number(|r| r.passes(1))), true),
+        Number(|r| r.passes(0))), Table::Truth),
+    (("load_cycles_damaged", "1", "the same since damage began", Number(|r| r.passes(1))), Table::Truth),
     (("sound_pressure_mpa", "MPa", "largest Hertz pressure of the sound contact under the heaviest rolling element, on the inner and the outer raceway, by the static balance",
-        Numbers(|r| Some(r.pressures.as_ref()?.sound.map(|p| 1e-6 * p).to_vec()))), true),
+        Numbers(|r| Some(r.pressures.as_ref()?.sound.map(|p| 1e-6 * p).to_vec()))), Table::Truth),
     (("edge_pressure_mpa", "MPa", "largest pressure over the damage as a rolling element passes with the sound contact's static deformation there (half-space, elastic, edges rounded over contact.edge_radius_um; next to its edges as far as these are rounded): it grows as cells shrink, so compare it between snapshots",
-        Number(|r| Some(1e-6 * r.pressures.as_ref()?.edge?.0))), true),
-    (("edge_pressure_at_mm", "mm", "its place [s, z], in the frame of `outline_s_mm` and `outline_z_mm`", Numbers(|r| Some(r.pressures.as_ref()?.edge?.1.map(|x| 1e3 * x).to_vec()))), true),
+        Number(|r| Some(1e-6 * r.pressures.as_ref()?.edge?.0))), Table::Truth),
+    (("edge_pressure_at_mm", "mm", "its place [s, z], in the frame of `outline_s_mm` and `outline_z_mm`", Numbers(|r| Some(r.pressures.as_ref()?.edge?.1.map(|x| 1e3 * x).to_vec()))), Table::Truth),
 ];
-
-/// Of the columns that tell a label or may: those that say nothing of damage, and that a test rig has or could have.
-const HARMLESS: [&str; 5] = ["samples", CLIPPED, "accuracy", "kernel", "redrawn"];
-
-impl DataColumn {
-    /// Whether no model may be given it.
-    pub(crate) fn is_truth(&self) -> bool {
-        self.tells && !HARMLESS.contains(&self.record.column.name.as_str())
-    }
-}
 
 /// Whether a key is one of damage, of one bearing or of one of a machine's, or of how it grows; when machines are looked at
 /// everybody sees.
@@ -302,41 +320,50 @@ const fn listed(name: &'static str, source: Source) -> Fixed {
     (name, unit, meaning, source)
 }
 
-fn fixed((name, unit, description, source): &Fixed, tells: bool) -> DataColumn {
+fn fixed((name, unit, description, source): &Fixed, table: Table) -> DataColumn {
     let rows = match source {
         Slip(_) => "of each row: ",
         _ => "",
     };
-    DataColumn::new(name, unit, format!("{rows}{description}"), tells, *source)
+    DataColumn::new(name, unit, format!("{rows}{description}"), table, *source)
 }
 
-/// The columns of a campaign: head, signals, known, parameters, truth.
+/// The columns of a campaign: head, signals, known, parameters, labels, truth.
 /// `is_machine`: whether runs are of a machine.
 pub(crate) fn columns(draws: &Draws, signals: &[Column], is_machine: bool) -> Vec<DataColumn> {
-    let head = HEAD.iter().map(|c| fixed(c, false));
+    let head = HEAD.iter().map(|c| fixed(c, Table::Runs));
     let signals = signals.iter().enumerate().map(|(k, column)| DataColumn {
         record: RecordColumn { column: column.clone(), kind: Kind::Signal },
-        tells: false,
+        table: Table::Runs,
         source: Source::Signal(k),
     });
-    let known = KNOWN.iter().map(|c| fixed(c, false));
+    let known = KNOWN.iter().map(|c| fixed(c, Table::Runs));
     let parameters = draws.parameters().iter().enumerate().map(|(k, parameter)| {
         let kind = if parameter.numeric { Kind::Number } else { Kind::Words };
         let unit = brinell::document::unit_of_key(&parameter.key);
         let unit = if unit.is_empty() { "1" } else { unit };
         // What only some classes draw, or what is drawn for damage, tells the class.
         let tells = !parameter.common || is_of_damage(&parameter.key);
+        let table = if tells { Table::Truth } else { Table::Runs };
         let source = Source::Parameter(k, kind);
         let meaning = match (parameter.key.starts_with("history."), parameter.anew) {
             (true, _) => "drawn for each machine: key of the plan",
             (_, true) => "drawn at each snapshot: key of the scenario",
             _ => "drawn: key of the scenario",
         };
-        DataColumn::new(&parameter.key, unit, meaning, tells, source)
+        DataColumn::new(&parameter.key, unit, meaning, table, source)
     });
-    let truth = TRUTH.iter().map(|c| fixed(c, true));
-    let of_machines = OF_MACHINES.iter().filter(|_| is_machine).map(|(c, tells)| fixed(c, *tells));
+    let labels = LABELS.iter().map(|c| fixed(c, Table::Labels));
+    let truth = TRUTH.iter().map(|c| fixed(c, Table::Truth));
+    let of_machines = OF_MACHINES.iter().filter(|_| is_machine).map(|(c, table)| fixed(c, *table));
     let has_histories = draws.plan().history.is_some();
-    let of_histories = OF_HISTORIES.iter().filter(|_| has_histories).map(|(c, tells)| fixed(c, *tells));
-    head.chain(signals).chain(known).chain(parameters).chain(truth).chain(of_machines).chain(of_histories).collect()
+    let of_histories = OF_HISTORIES.iter().filter(|_| has_histories).map(|(c, table)| fixed(c, *table));
+    head.chain(signals)
+        .chain(known)
+        .chain(parameters)
+        .chain(labels)
+        .chain(truth)
+        .chain(of_machines)
+        .chain(of_histories)
+        .collect()
 }

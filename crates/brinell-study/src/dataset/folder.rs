@@ -20,6 +20,10 @@ pub(crate) const NAME: &str = "brinell.dataset";
 /// Key of a file's metadata: number of the file, from 0.
 pub(crate) const PART: &str = "brinell.part";
 
+/// Folder of the truth of open runs.
+pub(crate) const TRUTH: &str = "truth";
+/// Folder of labels and truth of the others.
+pub(crate) const HELD_OUT: &str = "held_out";
 /// Plan and base of a data set with held-out labels, from its folder.
 pub(crate) const SECRET_PATH: &str = "held_out/_plan.json";
 
@@ -40,10 +44,6 @@ impl Folder {
 
     pub(crate) fn part(&self, part: usize) -> PathBuf {
         self.root.join("runs").join(file_name(part))
-    }
-
-    pub(crate) fn held_out(&self, part: usize) -> PathBuf {
-        self.root.join("held_out").join(file_name(part))
     }
 
     /// What belongs to the labels: plan and base, from which anybody could make them. Readers of a folder of Parquet
@@ -73,11 +73,11 @@ impl Folder {
     /// # Errors
     /// Where it holds another campaign, or one of another version.
     pub(crate) fn claim(&self, mine: &About) -> Result<(), DatasetError> {
-        for folder in ["runs", "work"] {
+        for folder in ["runs", TRUTH, "work"] {
             make(&self.root.join(folder))?;
         }
         if mine.held_out == Some(Held::Planned(true)) {
-            make(&self.root.join("held_out"))?;
+            make(&self.root.join(HELD_OUT))?;
         }
         // Many shards may begin at once: whoever is first writes.
         for _ in 0..200 {
@@ -198,14 +198,14 @@ impl Folder {
 
     /// Every Parquet file among the runs, in order.
     pub(crate) fn parts_there(&self) -> Result<Vec<PathBuf>, DatasetError> {
-        let mut parts = self.all_there()?;
+        let mut parts = self.all_in("runs")?;
         parts.retain(|p| p.extension().is_some_and(|e| e == "parquet"));
         Ok(parts)
     }
 
-    /// Everything among the runs, in order.
-    pub(crate) fn all_there(&self) -> Result<Vec<PathBuf>, DatasetError> {
-        let path = self.root.join("runs");
+    /// Everything in one of its folders, in order.
+    pub(crate) fn all_in(&self, folder: &str) -> Result<Vec<PathBuf>, DatasetError> {
+        let path = self.root.join(folder);
         let entries = match std::fs::read_dir(&path) {
             Ok(entries) => entries,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -230,9 +230,14 @@ impl Folder {
             self.are_lengths(part, &facts)?;
             return Ok(Some(facts));
         }
-        let held_out = self.held_out(part);
-        let held_out = held_out.exists().then(|| file_facts(&held_out)).transpose()?;
-        let facts = PartFacts { runs: file_facts(&path)?, held_out };
+        let truth = [false, true].map(|are_held_out| truth_path(part, are_held_out));
+        let truth = truth.into_iter().find(|path| self.root.join(path).exists());
+        let of = |truth: String| -> Result<Facts, DatasetError> {
+            let facts = file_facts(&self.root.join(&truth))?;
+            // By class and failure the runs are counted.
+            Ok(Facts { path: truth, failed: None, tally: None, ..facts })
+        };
+        let facts = PartFacts { runs: file_facts(&path)?, truth: truth.map(of).transpose()? };
         self.write_facts(part, &facts)?;
         Ok(Some(facts))
     }
@@ -244,9 +249,9 @@ impl Folder {
 
     /// That the files of a part have the lengths that were written.
     fn are_lengths(&self, part: usize, facts: &PartFacts) -> Result<(), DatasetError> {
-        let labels = facts.held_out.iter().map(|facts| (self.held_out(part), facts));
-        for (path, recorded) in std::iter::once((self.part(part), &facts.runs)).chain(labels) {
-            // Labels may have been taken elsewhere.
+        let truth = facts.truth.iter().map(|facts| (self.root.join(&facts.path), facts));
+        for (path, recorded) in std::iter::once((self.part(part), &facts.runs)).chain(truth) {
+            // The truth may have been taken elsewhere.
             let Ok(found) = std::fs::metadata(&path) else {
                 continue;
             };
@@ -304,6 +309,11 @@ pub(crate) const KERNEL: &str = "brinell.kernel";
 pub(crate) const TALLY: &str = "brinell.tally";
 /// Key of the checksum of `dataset.json`.
 pub(crate) const CHECKSUM: &str = "checksum";
+
+/// The file of truth beside that of a part's runs, in the data set's folder.
+pub(crate) fn truth_path(part: usize, are_held_out: bool) -> String {
+    format!("{}/{}", if are_held_out { HELD_OUT } else { TRUTH }, file_name(part))
+}
 
 pub(crate) fn file_name(part: usize) -> String {
     format!("part-{part:05}.parquet")

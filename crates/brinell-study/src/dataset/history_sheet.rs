@@ -2,7 +2,7 @@
 
 use crate::dataset::error::DatasetError;
 use crate::dataset::sheet::{Opened, SheetRun, number, numbers, run_of, spread, words};
-use brinell_io::{Cell, each_record, read_records};
+use brinell_io::Cell;
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
@@ -149,16 +149,25 @@ pub fn history(
     let mut sheet = HistorySheet { machine, ..HistorySheet::default() };
     let mut snapshots = Vec::new();
     for path in &opened.parts {
-        let rows = read_records(path, &["machine", "defect_on"], |_| true)?;
-        let is_of = |cells: &[Cell]| cells.first() == Some(&Cell::Whole(machine as i64));
-        let on = rows.iter().filter(|cells| is_of(cells)).find_map(|cells| match &cells[1] {
-            Cell::WordsList(on) => on.first().cloned(),
-            _ => None,
-        });
+        let mut on = None;
+        let mut are_of = Vec::new();
+        opened.each_row(
+            path,
+            &["machine", "defect_on"],
+            |_| true,
+            |row| {
+                let is_of = row["machine"] == Cell::Whole(machine as i64);
+                are_of.push(is_of);
+                if let Cell::WordsList(words) = &row["defect_on"]
+                    && is_of
+                {
+                    on = on.take().or_else(|| words.first().cloned());
+                }
+            },
+        )?;
         sheet.on = on.unwrap_or(sheet.on);
-        let is_wanted = |row: usize| rows.get(row).is_some_and(|cells| is_of(cells));
-        each_record(path, &columns, is_wanted, |cells| {
-            let row: HashMap<&str, Cell> = columns.iter().copied().zip(cells).collect();
+        let is_wanted = |row: usize| are_of.get(row).is_some_and(|is_of| *is_of);
+        opened.each_row(path, &columns, is_wanted, |row| {
             let mut snapshot = snapshot(&row, &opened.signal, &sheet.on);
             snapshot.size = whole(&row, &opened, &snapshot.run).map(&size);
             sheet.class = words(&row, "class");

@@ -112,9 +112,10 @@ fn bring(from: &Folder, to: &Folder, part: usize, facts: &PartFacts) -> Result<(
         }
         Ok(atomic_copy(from, to)?)
     };
-    if let Some(labels) = &facts.held_out {
-        make(&to.root.join("held_out"))?;
-        copy(from.held_out(part), to.held_out(part), labels)?;
+    if let Some(truth) = &facts.truth {
+        let there = to.root.join(&truth.path);
+        there.parent().map_or(Ok(()), make)?;
+        copy(from.root.join(&truth.path), there, truth)?;
     }
     copy(from.part(part), to.part(part), &facts.runs)?;
     to.write_facts(part, facts)

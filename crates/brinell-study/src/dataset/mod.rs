@@ -10,12 +10,14 @@
 //! | path | what |
 //! | --- | --- |
 //! | `runs/part-00000.parquet`, ... | one row a run, in their order |
-//! | `held_out/part-00000.parquet`, ... | labels of the runs whose labels the plan holds out |
+//! | `truth/part-00000.parquet`, ... | of the same rows what tells the label, or no sensor tells |
+//! | `held_out/part-00000.parquet`, ... | labels and truth of the runs whose labels the plan holds out |
 //! | `dataset.json` | geometry, units, rate, licence, columns, checksums; written when all files are there |
 //! | `README.md`, `croissant.json` | the data set's card, as Hugging Face and other tools read it |
 //! | `work/` | which campaign it is, a checksum for each file, finished runs of unfinished files |
 
 mod about;
+mod baseline;
 mod campaign;
 mod card;
 mod columns;
@@ -37,7 +39,7 @@ mod truth;
 mod verify;
 
 pub use campaign::Campaign;
-pub use columns::DataColumn;
+pub use columns::{DataColumn, Table};
 pub use error::DatasetError;
 pub use history_sheet::{HistorySheet, SheetSnapshot, Size, WholeSignal, history};
 pub use merge::{Merged, merge};

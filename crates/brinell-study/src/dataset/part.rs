@@ -3,9 +3,9 @@
 use crate::campaign::{in_json, kernel};
 use crate::dataset::about::{Facts, PartFacts};
 use crate::dataset::campaign::Campaign;
-use crate::dataset::columns::{DataColumn, is_failed};
+use crate::dataset::columns::{DataColumn, Table, is_failed};
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY};
+use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY, truth_path};
 use crate::dataset::tally::{Places, Tally};
 use crate::design::Part;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, keys, read_row_file};
@@ -91,8 +91,9 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
             }
         }
     }
+    let are_held_out = campaign.split_of(part) == Part::HeldOut;
     // By class it would tell labels.
-    let tally = (campaign.split_of(part) != Part::HeldOut).then_some(tally);
+    let tally = (!are_held_out).then_some(tally);
     let all: Vec<&DataColumn> = campaign.columns().iter().collect();
     let start = |path, columns: &[&DataColumn]| -> Result<Rows, DatasetError> {
         let records: Vec<RecordColumn> = columns.iter().map(|c| c.record.clone()).collect();
@@ -103,32 +104,28 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
             rows: 0,
         })
     };
-    let mut rows = start(folder.part(part), &all)?;
-    let apart: Vec<usize> = (0..all.len()).filter(|k| all[*k].record.column.name == "run" || all[*k].tells).collect();
-    let mut labels = match campaign.split_of(part) == Part::HeldOut {
-        true => {
-            let columns: Vec<&DataColumn> = apart.iter().map(|k| all[*k]).collect();
-            Some(start(folder.held_out(part), &columns)?)
-        }
-        false => None,
+    let among = |is_there: &dyn Fn(&DataColumn) -> bool| -> Vec<usize> {
+        (0..all.len()).filter(|k| is_there(all[*k])).collect()
     };
+    let (with_runs, apart) = (among(&DataColumn::is_with_runs), among(&|column| column.is_apart(are_held_out)));
+    let chosen = |places: &[usize]| -> Vec<&DataColumn> { places.iter().map(|k| all[*k]).collect() };
+    let path = truth_path(part, are_held_out);
+    let mut rows = start(folder.part(part), &chosen(&with_runs))?;
+    let mut truth = start(folder.root.join(&path), &chosen(&apart))?;
     for run in campaign.runs_of(part) {
         let Some(mut cells) = read(*run) else {
             return Ok(None);
         };
-        if let Some(labels) = &mut labels {
-            labels.push(apart.iter().map(|k| cells[*k].clone()).collect())?;
-            for (cell, column) in cells.iter_mut().zip(&all) {
-                if column.tells {
-                    *cell = Cell::Empty;
-                }
-            }
-        }
-        rows.push(cells)?;
+        truth.push(apart.iter().map(|k| cells[*k].clone()).collect())?;
+        let of_run = with_runs.iter().map(|k| match are_held_out && all[*k].table == Table::Labels {
+            true => Cell::Empty,
+            false => std::mem::replace(&mut cells[*k], Cell::Empty),
+        });
+        rows.push(of_run.collect())?;
     }
-    // The labels first: once the file of the runs is there, the part counts as finished.
-    let held_out = labels.map(|labels| labels.finish(0, None)).transpose()?;
-    let facts = PartFacts { runs: rows.finish(failed, tally)?, held_out };
+    // The truth first: once the file of the runs is there, the part counts as finished.
+    let truth = Facts { path, failed: None, ..truth.finish(0, None)? };
+    let facts = PartFacts { runs: rows.finish(failed, tally)?, truth: Some(truth) };
     folder.write_facts(part, &facts)?;
     Ok(Some(facts))
 }

@@ -2,12 +2,12 @@
 
 use crate::dataset::about::{About, Class};
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::Folder;
+use crate::dataset::folder::{Folder, TRUTH};
 use brinell::channel::SENSOR;
 use brinell::observe::envelope_band_above;
 use brinell::scenario::Operation;
 use brinell::signal::{Segments, envelope_spectrum};
-use brinell_io::{Cell, read_records};
+use brinell_io::{Cell, each_record, read_records};
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
@@ -124,12 +124,12 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
     let columns: Vec<&str> = opened.columns().collect();
     for (part, path) in opened.parts.iter().enumerate() {
         let is_chosen = |row: usize| chosen.contains(&(part, row));
-        for cells in read_records(path, &columns, is_chosen)? {
-            let (label, run) = run_of(&columns.iter().copied().zip(cells).collect(), &opened.signal);
+        opened.each_row(path, &columns, is_chosen, |row| {
+            let (label, run) = run_of(&row, &opened.signal);
             if let Some(class) = classes.get_mut(label) {
                 class.shown.push(run);
             }
-        }
+        })?;
     }
     let Opened { about, signal, unit, .. } = opened;
     Ok(Sheet { name: about.name, version: about.brinell, signal, unit, classes })
@@ -168,6 +168,31 @@ impl Opened {
         };
         let (signal, unit) = (signal.name.clone(), signal.unit.clone());
         Ok(Self { folder, about, parts, places, signal, unit })
+    }
+
+    /// Hands on each wanted row of a file of runs, with what the file of truth beside it says: without that file these cells
+    /// are empty.
+    pub(super) fn each_row<'a>(
+        &self,
+        path: &Path,
+        columns: &[&'a str],
+        is_wanted: impl Fn(usize) -> bool,
+        mut each: impl FnMut(HashMap<&'a str, Cell>),
+    ) -> Result<(), DatasetError> {
+        let is_apart = |name: &str| self.about.columns.iter().any(|c| c.name == name && c.table == TRUTH);
+        let (apart, with_runs): (Vec<&str>, Vec<&str>) = columns.iter().partition(|name| is_apart(name));
+        let beside = self.folder.root.join(TRUTH).join(path.file_name().unwrap_or_default());
+        let truth = match beside.exists() {
+            true => read_records(&beside, &apart, &is_wanted)?,
+            false => Vec::new(),
+        };
+        let mut truth = truth.into_iter();
+        each_record(path, &with_runs, is_wanted, |cells| {
+            let of_truth = truth.next().unwrap_or_else(|| vec![Cell::Empty; apart.len()]);
+            let cells = with_runs.iter().copied().zip(cells).chain(apart.iter().copied().zip(of_truth));
+            each(cells.collect());
+        })?;
+        Ok(())
     }
 
     /// What is read of a run.

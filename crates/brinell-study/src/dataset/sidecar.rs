@@ -6,9 +6,9 @@ use crate::dataset::about::{
 };
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
-use crate::dataset::columns::{DataColumn, is_of_damage};
+use crate::dataset::columns::{DataColumn, Table, is_of_damage};
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CHECKSUM, Folder, SECRET_PATH, file_name, make, put, written};
+use crate::dataset::folder::{CHECKSUM, Folder, HELD_OUT, SECRET_PATH, TRUTH, file_name, make, put, written};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell::made_by::digest;
@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::path::Path;
 
 /// Changes with the meaning of columns and keys.
-const SCHEMA: &str = "brinell-dataset-2";
+const SCHEMA: &str = "brinell-dataset-3";
 
 impl Campaign {
     /// Makes a folder this data set's, or finds that it is.
@@ -46,7 +46,8 @@ fn about(campaign: &Campaign) -> About {
         kind: type_name(c.record.kind).into(),
         unit: c.record.column.unit.clone(),
         description: c.record.column.description.clone(),
-        held_out: holds_out.then_some(c.tells),
+        table: if c.is_with_runs() { "runs" } else { TRUTH }.into(),
+        held_out: holds_out.then_some(c.table != Table::Runs),
     };
     let varies = |key: &str| {
         let mut drawn = draws.parameters().iter();
@@ -76,6 +77,7 @@ fn about(campaign: &Campaign) -> About {
         runs: Runs::Planned(draws.runs() as u64),
         runs_per_file: plan.runs_per_file as u64,
         files: Files::Planned(campaign.parts()),
+        truth: Vec::new(),
         splits: splits(campaign),
         classes: plan.classes.iter().enumerate().map(class).collect(),
         design: plan.design.word().into(),
@@ -83,7 +85,6 @@ fn about(campaign: &Campaign) -> About {
             machines: history.machines as u64,
             snapshots: history.snapshots as u64,
             assumed: history.assumptions(),
-            truth: campaign.columns().iter().filter(|c| c.is_truth()).map(|c| c.record.column.name.clone()).collect(),
         }),
         rate: Rate {
             sample_rate_hz: constant("simulation.sample_rate_hz", simulation.sample_rate_hz),
@@ -163,13 +164,14 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
         };
         let split = about.splits.iter_mut().find(|split| split.name == name);
         split.into_iter().for_each(|split| split.add(&facts.runs));
-        let path = |place: &str| format!("{place}/{}", file_name(part));
-        files.push(Facts { path: path("runs"), tally: None, split: Some(name), ..facts.runs });
-        labels.extend(facts.held_out.map(|facts| Facts { path: path("held_out"), failed: None, ..facts }));
+        let path = format!("runs/{}", file_name(part));
+        let apart = if name == Part::HeldOut.word() { &mut labels } else { &mut about.truth };
+        apart.extend(facts.truth);
+        files.push(Facts { path, tally: None, split: Some(name), ..facts.runs });
     }
     about.held_out = None;
     if let Some(mut secret) = about.secret.take() {
-        make(&folder.root.join("held_out"))?;
+        make(&folder.root.join(HELD_OUT))?;
         // A damaged run's labels take more bytes than a sound one's: how many would tell.
         secret.files = Some(labels);
         let text = written(&secret);

@@ -4,7 +4,9 @@ use crate::campaign::DIFFER;
 use crate::dataset::about::{About, Facts, Held, Sources};
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, PART, SECRET_PATH, file_name, number_of};
+use crate::dataset::folder::{
+    CAMPAIGN, Folder, HELD_OUT, KERNEL, PART, SECRET_PATH, TRUTH, file_name, number_of, truth_path,
+};
 use brinell_io::{keys, record_facts, sha256_of};
 use std::path::Path;
 
@@ -58,6 +60,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     set.files(&mut found)?;
     set.strangers(&mut found)?;
     set.card(&mut found)?;
+    set.truth(&mut found)?;
     set.labels(&mut found)?;
     Ok(found)
 }
@@ -72,7 +75,8 @@ struct Set<'a> {
 
 impl Set<'_> {
     fn files(&self, found: &mut Verified) -> Result<(), DatasetError> {
-        let columns: Vec<&str> = self.planned.columns.iter().map(|c| &*c.name).collect();
+        let with_runs = self.planned.columns.iter().filter(|column| column.table != TRUTH);
+        let columns: Vec<&str> = with_runs.map(|column| &*column.name).collect();
         let parts = self.planned.rows_of_files();
         let mut kernel = self.planned.kernel.clone();
         for part in 0..found.of {
@@ -139,14 +143,16 @@ impl Set<'_> {
     }
 
     fn strangers(&self, found: &mut Verified) -> Result<(), DatasetError> {
-        for path in self.folder.all_there()? {
-            let name = path.file_name().unwrap_or_default();
-            let name = name.to_string_lossy().into_owned();
-            // A file that another process is about to finish is none yet.
-            let whole = name.strip_suffix(".partial").unwrap_or(&name);
-            if number_of(whole).is_none_or(|part| part >= found.of) {
-                let stranger = format!("runs/{name}: no file of this data set");
-                found.problems.push(stranger);
+        for folder in ["runs", TRUTH] {
+            for path in self.folder.all_in(folder)? {
+                let name = path.file_name().unwrap_or_default();
+                let name = name.to_string_lossy().into_owned();
+                // A file that another process is about to finish is none yet.
+                let whole = name.strip_suffix(".partial").unwrap_or(&name);
+                if number_of(whole).is_none_or(|part| part >= found.of) {
+                    let stranger = format!("{folder}/{name}: no file of this data set");
+                    found.problems.push(stranger);
+                }
             }
         }
         Ok(())
@@ -163,6 +169,28 @@ impl Set<'_> {
         }
     }
 
+    /// The truth of open runs may have been taken elsewhere, all of it: what is here is checked.
+    fn truth(&self, found: &mut Verified) -> Result<(), DatasetError> {
+        let recorded = (0..self.planned.rows_of_files().len()).filter_map(|part| self.folder.recorded(part)?.truth);
+        let mut truth = self.made.truth.clone();
+        if truth.is_empty() {
+            truth = recorded.filter(|facts| !facts.path.starts_with(HELD_OUT)).collect();
+        }
+        let is_here = |facts: &Facts| self.folder.root.join(&facts.path).exists();
+        if !truth.is_empty() && !truth.iter().any(is_here) {
+            found.absent.push(format!("{TRUTH}/ is not here"));
+            return Ok(());
+        }
+        for facts in &truth {
+            if is_here(facts) {
+                self.unchanged(&facts.path, &facts.sha256, found)?;
+            } else {
+                found.problems.push(missing(&facts.path));
+            }
+        }
+        Ok(())
+    }
+
     /// Held-out labels may have been taken elsewhere, all of them: those that are here are checked, and what they are
     /// made from.
     fn labels(&self, found: &mut Verified) -> Result<(), DatasetError> {
@@ -174,8 +202,7 @@ impl Set<'_> {
         let secret: Sources = secret.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
         let there = |path: &str| self.folder.root.join(path).exists();
         let parts = self.planned.rows_of_files().len();
-        let mut labels = (0..parts).map(|part| self.folder.held_out(part));
-        let are_here = labels.any(|path| path.exists()) || there(SECRET_PATH);
+        let are_here = (0..parts).any(|part| there(&truth_path(part, true))) || there(SECRET_PATH);
         if plan.is_some() && !are_here {
             found.absent.push("labels are not here".into());
         }
@@ -188,11 +215,7 @@ impl Set<'_> {
                 self.unchanged(path, sha256, found)?;
                 continue;
             }
-            let remedy = match path == SECRET_PATH {
-                false => "remove the file of that name in runs/ as well, and both are made again",
-                true => "the plan's own command writes it again",
-            };
-            found.problems.push(format!("{path} is missing, and others are here: {remedy}"));
+            found.problems.push(missing(path));
         }
         Ok(())
     }
@@ -203,4 +226,13 @@ impl Set<'_> {
         }
         Ok(())
     }
+}
+
+/// That a file beside those of the runs is missing, and what makes it again.
+fn missing(path: &str) -> String {
+    let remedy = match path == SECRET_PATH {
+        false => "remove the file of that name in runs/ as well, and both are made again",
+        true => "the plan's own command writes it again",
+    };
+    format!("{path} is missing, and others are here: {remedy}")
 }
