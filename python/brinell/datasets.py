@@ -217,6 +217,15 @@ class DataSet:
                 return known
         return {}
 
+    def _truth(self, chosen: list[str] | None, whole: bool) -> list[Path]:
+        """Files of truth that chosen columns need; with ``whole`` those that are there, where none are chosen."""
+        of_truth = {column["name"] for column in self._known().get("columns", []) if column.get("table") == "truth"}
+        needs = whole if chosen is None else not of_truth.isdisjoint(chosen)
+        files = sorted((self.folder / "truth").glob("part-*.parquet"), key=_number) if needs else []
+        if needs and not files and chosen is not None:
+            raise _brinell.ReadError(f"{self.folder}: truth/ is not here, which has {', '.join(name for name in chosen if name in of_truth)}")
+        return files
+
     def _chosen(self, columns: Sequence[str] | None, split: str | None) -> list[str] | None:
         """The columns, each of which there must be, and so the split."""
         known = self._known()
@@ -230,23 +239,33 @@ class DataSet:
                 _one_of("columns", name, [column["name"] for column in known["columns"]])
         return chosen
 
-    def _polars(self, columns: Sequence[str] | None, split: str | None, run: int | None = None) -> polars.DataFrame:
+    def _polars(self, columns: Sequence[str] | None, split: str | None, run: int | None = None, *, truth: bool = False) -> polars.DataFrame:
         pl = tables.need("polars")
         chosen = self._chosen(columns, split)
-        lazy = pl.scan_parquet(self._there())
+        lazy, beside = pl.scan_parquet(self._there()), self._truth(chosen, truth)
+        if beside:
+            lazy = lazy.join(pl.scan_parquet(beside), on="run", how="left")
         for name, value in (("split", split), ("run", run)):
             lazy = lazy if value is None else lazy.filter(pl.col(name) == value)
         frame: polars.DataFrame = (lazy if chosen is None else lazy.select(list(dict.fromkeys([*chosen, "run"])))).collect()
         frame = frame if frame["run"].is_sorted() else frame.sort("run")
         return frame if chosen is None else frame.select(chosen)
 
-    def _pandas(self, columns: Sequence[str] | None, split: str | None, run: int | None = None) -> pandas.DataFrame:
+    def _pandas(self, columns: Sequence[str] | None, split: str | None, run: int | None = None, *, truth: bool = False) -> pandas.DataFrame:
         pd = tables.need("pandas")
         chosen = self._chosen(columns, split)
-        wanted = None if chosen is None else list(dict.fromkeys([*chosen, "run"]))
-        filters = [(name, "==", value) for name, value in (("split", split), ("run", run)) if value is not None]
-        parts = [pd.read_parquet(file, columns=wanted, filters=filters or None) for file in self._there()]
-        frame: pandas.DataFrame = pd.concat([part for part in parts if len(part)] or parts[:1], ignore_index=True)
+        of_truth = {column["name"] for column in self._known().get("columns", []) if column.get("table") == "truth"}
+
+        def read(files: list[Path], is_there: Callable[[str], bool], filters: list[tuple[str, str, object]]) -> pandas.DataFrame:
+            wanted = None if chosen is None else list(dict.fromkeys(["run", *filter(is_there, chosen)]))
+            parts = [pd.read_parquet(file, columns=wanted, filters=filters or None) for file in files]
+            return pd.concat([part for part in parts if len(part)] or parts[:1], ignore_index=True)
+
+        of_run: list[tuple[str, str, object]] = [] if run is None else [("run", "==", run)]
+        of_split: list[tuple[str, str, object]] = [] if split is None else [("split", "==", split)]
+        frame = read(self._there(), lambda name: name not in of_truth, of_run + of_split)
+        if beside := self._truth(chosen, truth):
+            frame = frame.merge(read(beside, lambda name: name in of_truth, of_run), on="run", how="left")
         if not frame["run"].is_monotonic_increasing:
             frame = frame.sort_values("run", ignore_index=True)
         frame = frame if chosen is None else frame[chosen]
@@ -267,21 +286,23 @@ class DataSet:
         """Everything that is not as it should be: files missing or damaged, rows, checksums; empty where all is well."""
         return _brinell.verify(self.folder)[4]
 
-    def to_polars(self, columns: Sequence[str] | None = None, *, split: str | None = None) -> polars.DataFrame:
+    def to_polars(self, columns: Sequence[str] | None = None, *, split: str | None = None, truth: bool = False) -> polars.DataFrame:
         """A row a run, in order, signals as lists. Read the columns that are needed: names as in `Plan.columns`, else a ValueError says which there are.
 
         Parameters
         ----------
         columns : sequence of str, optional
-            All by default.
+            All of ``runs/`` by default; of ``truth/`` those that are named.
         split : str, optional
             Runs of this split alone: ``"train"``, ``"validation"``, ``"test"``.
+        truth : bool
+            Without ``columns``: those of ``truth/`` too. They give the label away.
         """
-        return self._polars(columns, split)
+        return self._polars(columns, split, truth=truth)
 
-    def to_pandas(self, columns: Sequence[str] | None = None, *, split: str | None = None) -> pandas.DataFrame:
+    def to_pandas(self, columns: Sequence[str] | None = None, *, split: str | None = None, truth: bool = False) -> pandas.DataFrame:
         """As `to_polars`, signals as arrays; ``attrs["units"]`` has the units. Needs pyarrow."""
-        return self._pandas(columns, split)
+        return self._pandas(columns, split, truth=truth)
 
     def __len__(self) -> int:
         """Runs in the files that are there."""
@@ -296,9 +317,9 @@ class DataSet:
         return sum(rows.get(file.name, 0) for file in self.files)
 
     def __getitem__(self, run: int) -> dict[str, Any]:
-        """A run by its number, from 0: its values by column, signals as arrays."""
+        """A run by its number, from 0: its values by column, those of ``truth/`` too, signals as arrays."""
         number = whole_of(run, "run", "the number of a run, from 0")
-        frame = self._polars(None, None, number) if _has_polars() else self._pandas(None, None, number)
+        frame = self._polars(None, None, number, truth=True) if _has_polars() else self._pandas(None, None, number, truth=True)
         for row in _rows(frame):
             return row
         raise KeyError(f"run {number}: not in the files that are there, which hold {len(self)} runs")
@@ -337,8 +358,13 @@ class DataSet:
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         """Runs as by number, one file in memory at a time; where runs are split, file by file, and so not in order."""
+        library = tables.need("polars" if _has_polars() else "pandas")
         for file in self._there():
-            yield from _rows(tables.need("polars" if _has_polars() else "pandas").read_parquet(file))
+            frame, beside = library.read_parquet(file), self.folder / "truth" / file.name
+            if beside.exists():
+                truth = library.read_parquet(beside)
+                frame = frame.join(truth, on="run", how="left") if _has_polars() else frame.merge(truth, on="run", how="left")
+            yield from _rows(frame)
 
     # Runs are found by number, and a row is nothing that could be compared.
     __contains__ = None
