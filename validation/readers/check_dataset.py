@@ -17,24 +17,27 @@ import pyarrow.parquet as pq
 folder = pathlib.Path(sys.argv[1])
 about = json.loads((folder / "dataset.json").read_text())
 secret = json.loads((folder / "held_out/_plan.json").read_text())
-for entry in about["files"] + secret["files"]:
+for entry in about["files"] + about["truth"] + secret["files"]:
     data = (folder / entry["path"]).read_bytes()
     assert hashlib.sha256(data).hexdigest() == entry["sha256"], entry
     assert len(data) == entry["bytes"], entry
 
-table = pq.read_table(folder / "runs")
+tables = {name: pq.read_table(folder / name) for name in ("runs", "truth")}
 types = {
     "bool": pa.bool_(), "int64": pa.int64(), "double": pa.float64(), "string": pa.string(),
     "list<float>": pa.list_(pa.float32()), "list<int64>": pa.list_(pa.int64()),
     "list<double>": pa.list_(pa.float64()), "list<string>": pa.list_(pa.string()),
 }
-assert [c["name"] for c in about["columns"]] == table.column_names
+for name, table in tables.items():
+    listed = [c["name"] for c in about["columns"] if c["table"] == name or c["name"] == "run"]
+    assert listed == table.column_names, name
 for column in about["columns"]:
-    found, expected = table.schema.field(column["name"]).type, types[column["type"]]
+    found, expected = tables[column["table"]].schema.field(column["name"]).type, types[column["type"]]
     same = found == expected or (pa.types.is_list(found) and found.value_type == expected.value_type)
     assert same, (column, found)
 
 runs = pd.read_parquet(folder / "runs")
+truth = pd.read_parquet(folder / "truth")
 assert sorted(runs.run) == list(range(about["runs"]["total"]))
 # Each file's runs are for one thing, and the files are in the order of the splits.
 for entry in about["files"]:
@@ -50,7 +53,12 @@ for _, run in runs.iterrows():
     for signal in ["sensor_ax", "sensor_ay"]:
         x = run[signal]
         assert x.dtype == np.float32 and x.shape == (expected,) and np.isfinite(x).all() and x.std() > 0
-whole = runs.set_index("run").combine_first(labels.set_index("run")).reset_index()
+# Beside every file of open runs lies that of their truth.
+for entry in about["truth"]:
+    beside = pd.read_parquet(folder / entry["path"].replace("truth/", "runs/"), columns=["run"])
+    assert beside.run.tolist() == pd.read_parquet(folder / entry["path"], columns=["run"]).run.tolist()
+assert sorted(truth.run) == sorted(runs.run[~held])
+whole = runs.set_index("run").combine_first(labels.set_index("run")).combine_first(truth.set_index("run")).reset_index()
 names = {c["label"]: c["name"] for c in about["classes"]}
 assert [names[label] for label in whole.label] == whole["class"].tolist()
 for _, run in whole.iterrows():
@@ -65,7 +73,10 @@ with tempfile.TemporaryDirectory() as cache:
     loaded = datasets.load_dataset(str(folder), cache_dir=cache)
     assert {name: split.num_rows for name, split in loaded.items()} == {s["name"]: s["runs"] for s in about["splits"]}
     assert len(loaded["train"][0]["sensor_ax"]) == 1280
+    beside = datasets.load_dataset(str(folder), "truth", cache_dir=cache)
+    assert all(split["run"] == loaded[name]["run"] for name, split in beside.items()) and "held_out" not in beside
 card = mlcroissant.Dataset(jsonld=str(folder / "croissant.json"))
 assert not card.metadata.issues.errors
 assert sorted(record["run/run"] for record in card.records("run")) == sorted(runs.run)
+assert sorted(record["truth/run"] for record in card.records("truth")) == sorted(truth.run)
 print(f"{folder}: {len(runs)} runs, {held.sum()} of them with labels apart, as dataset.json says")
