@@ -217,9 +217,13 @@ class DataSet:
                 return known
         return {}
 
+    def _of_truth(self) -> list[str]:
+        """Names of the columns of truth."""
+        return [column["name"] for column in self._known().get("columns", []) if column.get("table") == "truth"]
+
     def _truth(self, chosen: list[str] | None, whole: bool) -> list[Path]:
         """Files of truth that chosen columns need; with ``whole`` those that are there, where none are chosen."""
-        of_truth = {column["name"] for column in self._known().get("columns", []) if column.get("table") == "truth"}
+        of_truth = set(self._of_truth())
         needs = whole if chosen is None else not of_truth.isdisjoint(chosen)
         files = sorted((self.folder / "truth").glob("part-*.parquet"), key=_number) if needs else []
         if needs and not files and chosen is not None:
@@ -254,12 +258,13 @@ class DataSet:
     def _pandas(self, columns: Sequence[str] | None, split: str | None, run: int | None = None, *, truth: bool = False) -> pandas.DataFrame:
         pd = tables.need("pandas")
         chosen = self._chosen(columns, split)
-        of_truth = {column["name"] for column in self._known().get("columns", []) if column.get("table") == "truth"}
+        of_truth = set(self._of_truth())
 
         def read(files: list[Path], is_there: Callable[[str], bool], filters: list[tuple[str, str, object]]) -> pandas.DataFrame:
             wanted = None if chosen is None else list(dict.fromkeys(["run", *filter(is_there, chosen)]))
             parts = [pd.read_parquet(file, columns=wanted, filters=filters or None) for file in files]
-            return pd.concat([part for part in parts if len(part)] or parts[:1], ignore_index=True)
+            whole: pandas.DataFrame = pd.concat([part for part in parts if len(part)] or parts[:1], ignore_index=True)
+            return whole
 
         of_run: list[tuple[str, str, object]] = [] if run is None else [("run", "==", run)]
         of_split: list[tuple[str, str, object]] = [] if split is None else [("split", "==", split)]
@@ -359,12 +364,15 @@ class DataSet:
     def __iter__(self) -> Iterator[dict[str, Any]]:
         """Runs as by number, one file in memory at a time; where runs are split, file by file, and so not in order."""
         library = tables.need("polars" if _has_polars() else "pandas")
+        # Of runs with held-out labels the truth lies elsewhere: nothing, by the same names.
+        unknown = dict.fromkeys(self._of_truth()) if self._truth(None, whole=True) else {}
         for file in self._there():
             frame, beside = library.read_parquet(file), self.folder / "truth" / file.name
             if beside.exists():
                 truth = library.read_parquet(beside)
                 frame = frame.join(truth, on="run", how="left") if _has_polars() else frame.merge(truth, on="run", how="left")
-            yield from _rows(frame)
+            for row in _rows(frame):
+                yield unknown | row
 
     # Runs are found by number, and a row is nothing that could be compared.
     __contains__ = None

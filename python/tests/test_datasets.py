@@ -410,6 +410,8 @@ def test_prop_nothing_but_the_signal_tells_a_label(tmp_path, examples):
     held = rows["split"] == "held_out"
     beside = [c for c in rows if rows.loc[held, c].notna().all() and c not in ("sensor_ax", "split")]
     assert "class" not in beside and {"run", "speed_rpm", "operation.load_n.0"} <= set(beside)
+    # Of runs with a label no more is published among the runs than of those without.
+    assert set(rows) - set(beside) == {"class", "label", "reason", "sensor_ax", "split"}
 
     def number(value):
         value = value[0] if isinstance(value, (list, np.ndarray)) else value
@@ -468,6 +470,34 @@ def test_prop_runs_are_found_by_number_and_by_split(tmp_path, examples):
         data[12]
     with pytest.raises(TypeError, match="run = 'a': expected a whole number"):
         data["a"]
+
+
+def test_prop_truth_is_read_where_it_is_asked_for(plan, tmp_path, monkeypatch):
+    polars = pytest.importorskip("polars")
+    data = plan(runs=9, per_file=4).run(tmp_path / "data")
+    truth = {"defect_length_mm", "entry_t_s", "warnings", "scenario", "defects.0.depth_um", "audit_energy_parametric_j"}
+    for read in (data.to_pandas, data.to_polars):
+        assert truth.isdisjoint(read().columns) and truth <= set(read(truth=True).columns)
+        one = read(["defect_length_mm", "class", "run"])
+        assert list(one.columns) == ["defect_length_mm", "class", "run"] and list(one["run"]) == list(range(9))
+        for length, label in zip(one["defect_length_mm"], one["class"]):
+            known = isinstance(label, str)
+            assert (length is not None and len(length) == (label == "photo")) if known else length is None or length != length
+        test = read(["run", "entry_t_s"], split="train")
+        assert 0 < len(test) < 9
+    both = data.to_polars(truth=True).select("run", "sensor_ax", "entry_t_s")
+    for row in data:
+        of = both.filter(polars.col("run") == row["run"])
+        for name in ("sensor_ax", "entry_t_s"):
+            np.testing.assert_array_equal(row[name] if row[name] is not None else [], of[name][0] if of[name][0] is not None else [])
+        one = data[row["run"]]
+        assert one.keys() == row.keys() and "scenario" in one
+    # A data set that was published without its truth.
+    (data.folder / "truth").rename(tmp_path / "kept")
+    assert len(data.to_pandas()) == 9 == len(data.to_polars(truth=True)) and "scenario" not in data[0]
+    for read in (data.to_pandas, data.to_polars):
+        with pytest.raises(brinell.ReadError, match="truth/ is not here, which has defect_length_mm"):
+            read(["class", "defect_length_mm"])
 
 
 def test_xval_a_run_of_a_data_set_is_analysed_as_its_simulation(plan, tmp_path):
