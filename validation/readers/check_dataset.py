@@ -78,5 +78,5 @@ with tempfile.TemporaryDirectory() as cache:
 card = mlcroissant.Dataset(jsonld=str(folder / "croissant.json"))
 assert not card.metadata.issues.errors
 assert sorted(record["run/run"] for record in card.records("run")) == sorted(runs.run)
-assert sorted(record["truth/run"] for record in card.records("truth")) == sorted(truth.run)
+assert sorted(record["run_truth/run"] for record in card.records("run_truth")) == sorted(truth.run)
 print(f"{folder}: {len(runs)} runs, {held.sum()} of them with labels apart, as dataset.json says")

@@ -194,7 +194,7 @@ fn croissant(about: &About) -> Value {
     };
     let mut distribution: Vec<Value> = about.listed().iter().chain(&about.truth).map(file).collect();
     let tables: &[(&str, &str)] =
-        if about.truth.is_empty() { &[("runs", "run")] } else { &[("runs", "run"), (TRUTH, TRUTH)] };
+        if about.truth.is_empty() { &[("runs", "run")] } else { &[("runs", "run"), (TRUTH, "run_truth")] };
     distribution.extend(tables.iter().map(|(files, _)| {
         json!({
             "@type": "cr:FileSet", "@id": files, "name": files, "encodingFormat": "application/x-parquet",
