@@ -68,3 +68,48 @@ def closed_figures():
     import matplotlib.pyplot as plt
 
     plt.close("all")
+
+
+#: Of a data set, half of it with damage from a photo.
+PLAN = """
+name = "spalls"
+base = "base.toml"
+runs = {runs}
+seed = 804613592207415
+design = "sobol"
+runs_per_file = {per_file}
+held_out = 0.25
+secret = "9f86d081884c7d659a2feaa0c55ad015"
+signals = ["sensor_a*"]
+
+[vary]
+simulation.duration_s = {duration}
+operation.speed_rpm = {{ uniform = [900, 3000] }}
+
+[[classes]]
+name = "healthy"
+defects = []
+
+[[classes]]
+name = "photo"
+[[classes.defects]]
+on = "outer-raceway"
+depth_um = {{ log = [3, 40] }}
+shape.image = {{ file = "photo-spall.png", mm_per_pixel = 0.02 }}
+"""
+
+
+@pytest.fixture
+def plan(tmp_path, examples):
+    """Sixteen short runs in eight files, half of them with damage from a photo."""
+
+    def make(**values):
+        (tmp_path / "plan").mkdir(exist_ok=True)
+        for name in ("rectangle.toml", "photo-spall.png"):
+            target = "base.toml" if name.endswith("toml") else name
+            (tmp_path / "plan" / target).write_bytes((examples / name).read_bytes())
+        text = PLAN.format(**({"runs": 15, "per_file": 2, "duration": 0.05} | values))
+        (tmp_path / "plan" / "plan.toml").write_text(text)
+        return brinell.Plan(tmp_path / "plan" / "plan.toml")
+
+    return make

@@ -41,7 +41,7 @@ use std::path::PathBuf;
     held_out/                  labels and truth of the runs that `held_out` sets apart\n  \
     sheet.html                 a few runs of each class to look at: `brinell dataset sheet`\n  \
     work/                      finished runs of unfinished files\n\n\
-    The same command resumes where it stopped, and changes nothing that is there. The files' bytes depend on plan, version, kernel \
+    The same command resumes where it stopped, and changes nothing that is there. The files' bytes depend on plan, version and commit, kernel \
     (BRINELL_KERNEL) and the system's mathematics library, not on --jobs, --shard or interruptions. In a Slurm array (sbatch --array=1-10): --shard $SLURM_ARRAY_TASK_ID/10. \
     N is a fixed number: of tasks that are submitted again, Slurm counts those alone.\n\n\
     Exit codes: 0 all of the shard is there, 1 Ctrl-C or a full disk stopped it (what is finished is kept), or `verify` or `merge` found something \

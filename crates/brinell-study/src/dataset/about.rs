@@ -11,6 +11,9 @@ pub(crate) struct About {
     pub(crate) name: String,
     pub(crate) schema: String,
     pub(crate) brinell: String,
+    /// Of the program that began it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) commit: Option<String>,
     /// What tells it from others.
     pub(crate) campaign: String,
     pub(crate) kernel: Option<String>,
@@ -76,6 +79,13 @@ pub(crate) enum Held {
 }
 
 impl About {
+    /// What made it, as pages say it behind the program's name.
+    pub(crate) fn made_by(&self) -> String {
+        let commit = self.commit.iter().map(|commit| format!(", commit {commit}"));
+        let kernel = self.kernel.iter().map(|kernel| format!(", kernel {kernel}"));
+        std::iter::once(self.brinell.clone()).chain(commit).chain(kernel).collect()
+    }
+
     /// Its files, where they are there.
     pub(crate) fn listed(&self) -> &[Facts] {
         match &self.files {

@@ -80,7 +80,7 @@ fn description(about: &About) -> String {
         "Vibration signals of {} runs of rolling bearings{of}, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
          with labels and ground truth.",
         runs(about).0,
-        about.brinell
+        about.made_by()
     )
 }
 

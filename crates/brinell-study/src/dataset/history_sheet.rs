@@ -14,7 +14,7 @@ const SLIP: f64 = 0.015;
 pub struct HistorySheet {
     /// Name of the data set.
     pub name: String,
-    /// The version of brinell that made it.
+    /// Version, commit and kernel of brinell that made it.
     pub version: String,
     /// Number of the machine.
     pub machine: usize,
@@ -192,7 +192,7 @@ pub fn history(
         seen[k].is_shown = true;
     }
     (sheet.signal, sheet.unit) = (opened.signal, opened.unit);
-    (sheet.name, sheet.version) = (opened.about.name, opened.about.brinell);
+    (sheet.version, sheet.name) = (opened.about.made_by(), opened.about.name);
     Ok(sheet)
 }
 

@@ -8,6 +8,7 @@ use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY, truth_path};
 use crate::dataset::tally::{Places, Tally};
 use crate::design::Part;
+use brinell::made_by;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, keys, read_row_file};
 use serde_json::{Map, Value};
 
@@ -56,8 +57,7 @@ fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u
     let descriptions: Map<String, Value> =
         columns.iter().map(|c| (c.record.column.name.clone(), c.record.column.description.as_str().into())).collect();
     let plan = campaign.plan();
-    let metadata = Metadata::default()
-        .with(keys::VERSION, brinell::VERSION)
+    let metadata = Metadata::made_by(brinell::VERSION, made_by::commit())
         .with(NAME, &plan.name)
         .with(CAMPAIGN, campaign.identity())
         .with(PART, part.to_string())

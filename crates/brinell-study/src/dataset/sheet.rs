@@ -21,7 +21,7 @@ const STRETCH_S: f64 = 0.1;
 pub struct Sheet {
     /// Name of the data set.
     pub name: String,
-    /// The version of brinell that made it.
+    /// Version, commit and kernel of brinell that made it.
     pub version: String,
     /// The signal's column: the sensor along the load of the first run, or the first that there is.
     pub signal: String,
@@ -132,7 +132,7 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
         })?;
     }
     let Opened { about, signal, unit, .. } = opened;
-    Ok(Sheet { name: about.name, version: about.brinell, signal, unit, classes })
+    Ok(Sheet { version: about.made_by(), name: about.name, signal, unit, classes })
 }
 
 /// A data set whose files are read, and the signal that is shown of it.

@@ -11,7 +11,7 @@ use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CHECKSUM, Folder, HELD_OUT, SECRET_PATH, TRUTH, file_name, make, put, written};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
-use brinell::made_by::digest;
+use brinell::made_by::{self, digest};
 use brinell_io::Kind;
 use serde::Serialize;
 use std::path::Path;
@@ -71,6 +71,7 @@ fn about(campaign: &Campaign) -> About {
         name: plan.name.clone(),
         schema: SCHEMA.into(),
         brinell: brinell::VERSION.into(),
+        commit: made_by::commit().map(ToOwned::to_owned),
         campaign: campaign.identity().into(),
         kernel: Some(kernel().into()),
         licence: (!plan.licence.is_empty()).then(|| plan.licence.clone()),
