@@ -3,7 +3,11 @@
 
 use crate::{Column, IoError, atomic_write};
 use sha2::{Digest, Sha256};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
+
+/// Bytes of a file that are read at a time.
+const PIECE: usize = 1 << 16;
 
 /// What the cells of a column are. Any cell may be empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,13 +209,20 @@ pub fn read_row_file(path: impl AsRef<Path>, columns: &[RecordColumn]) -> Option
 /// Where it cannot be read.
 pub fn sha256_of(path: impl AsRef<Path>) -> Result<String, IoError> {
     let path = path.as_ref();
-    let mut sum = Sha256::new();
-    let mut read = || {
-        let mut file = std::fs::File::open(path)?;
-        std::io::copy(&mut file, &mut sum)
+    let read = || {
+        let mut file = BufReader::with_capacity(PIECE, std::fs::File::open(path)?);
+        let mut sum = Sha256::new();
+        loop {
+            let piece = file.fill_buf()?;
+            if piece.is_empty() {
+                return Ok(hexadecimal(&sum.finalize()));
+            }
+            sum.update(piece);
+            let read = piece.len();
+            file.consume(read);
+        }
     };
-    read().map_err(|e| IoError::reading(path, e))?;
-    Ok(hexadecimal(&sum.finalize()))
+    read().map_err(|e| IoError::reading(path, e))
 }
 
 /// Bytes as hexadecimal digits, two each.

@@ -5,7 +5,7 @@
 //! of another number.
 
 use brinell::random::mix;
-use hmac::{Hmac, Mac};
+use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
 use std::collections::BTreeSet;
 
