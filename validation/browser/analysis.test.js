@@ -72,6 +72,12 @@ describe("the page of an analysis", { skip: existsSync(path) ? false : `no page 
     assert.ok(marks.length && marks.every((y) => y <= frame), `${marks} below ${frame}`);
   }));
 
+  it("no list is torn apart on paper", () => on(async (page) => {
+    await page.emulateMedia({ media: "print" });
+    const lists = await page.locator("main ul").evaluateAll((all) => all.map((list) => getComputedStyle(list).breakInside));
+    assert.ok(lists.length && lists.every((inside) => inside === "avoid"), `${lists}`);
+  }));
+
   for (const kind of ["SVG", "PNG"]) {
     it(`every picture saves as ${kind}`, () => on(async (page) => {
       const buttons = page.getByRole("button", { name: new RegExp(`^Save as ${kind}`) }), count = await buttons.count();

@@ -160,6 +160,12 @@ describe("a plot", () => {
     assert.equal(await span(), whole);
   }));
 
+  it("says how plots are zoomed above the first of them alone", async () => on({}, async (page) => {
+    const said = (await page.locator(".readout").allTextContents()).filter((text) => text.startsWith("Drag, pinch"));
+    assert.equal(said.length, 1);
+    assert.match(await readout(page, "waveform").textContent(), /^Drag, pinch or Ctrl \+ wheel to zoom/);
+  }));
+
   it("reads out what is under the cursor, by pointer and by keys", async () => on({}, async (page) => {
     const [lo, hi] = (await plot(page, "waveform").getAttribute("data-view")).split(" ").map(Number);
     const [x, y] = await place(page, "waveform", 0.4);

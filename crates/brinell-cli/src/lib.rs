@@ -19,6 +19,7 @@ mod diff;
 mod failure;
 mod figures;
 mod files;
+mod hint;
 mod init;
 mod inputs;
 mod look_up;
@@ -59,9 +60,11 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     hear_of_full_files();
     brinell_damage::keep_tables();
     allow_open_files();
-    let code = match Cli::try_parse_from(args) {
+    let args: Vec<OsString> = args.into_iter().collect();
+    let code = match Cli::try_parse_from(&args) {
         Ok(cli) => code_of(chosen_kernel().and_then(|()| run_command(cli.command))),
-        Err(words) if words.use_stderr() => {
+        Err(mut words) if words.use_stderr() => {
+            hint::suggest(&mut words, &args);
             let _ = words.print();
             ExitCode::BAD_INPUT
         }

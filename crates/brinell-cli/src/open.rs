@@ -63,7 +63,12 @@ fn page_of(place: &Path) -> Result<PathBuf, Failure> {
 /// In words, where there is none or it refuses.
 pub(crate) fn show(page: &Path) -> Result<(), String> {
     let whole = page.canonicalize().unwrap_or_else(|_| page.to_owned());
-    open::that_detached_with_timeout(&whole, PATIENCE).map_err(|error| {
-        format!("nothing on this system opened the page ({error}); open it in a browser: {}", whole.display())
+    // What the openers say of themselves (exit statuses) helps nobody.
+    open::that_detached_with_timeout(&whole, PATIENCE).map_err(|_| {
+        format!(
+            "nothing on this system opened the page, as where there is no browser or no desktop; it is one file: open it in a \
+             browser, here or on the machine that you copy it to: {}",
+            whole.display()
+        )
     })
 }

@@ -53,7 +53,7 @@ fn regress_a_folder_is_a_row_a_file_and_a_bad_one_stops_nothing() {
     assert_eq!(names, files(&folder.path().join("look")));
     assert!(names.contains(&"plots/trend-rms.svg") && names.contains(&"plots/trend-score.svg"));
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    for part in ["r10.csv", "Files without a result", "Score of a family"] {
+    for part in ["r10.csv", "Files without a result", "Detection score"] {
         assert!(page.contains(part), "{part}");
     }
     // Again into the same folder: these are of the same files.

@@ -23,6 +23,7 @@ fn lit_check_shows_clearance_rating_and_pressure() {
         "Rating    C0 = 36.5 kN, 10.0 times the load (SKF General catalogue",
         "MPa at the inner raceway, ",
         "static limit 4000 MPa",
+        "ball-pass period        ",
         "MPa at most on the 4.80 mm of contact left on the outer raceway",
     ]);
     // C0 presses the heaviest roller with 4000 MPa where the load zone is half a turn; clearance makes it narrower.

@@ -89,8 +89,17 @@ fn prop_the_template_of_an_inner_race_is_long_enough_for_its_line() {
     let here = folder.path();
     let init = ["init", "s.toml", "--template", "inner-spall"];
     brinell(here, &init).exits(0);
-    brinell(here, &["run", "s.toml", "-o", "o", "--no-report"]).exits(0).says(&["defect 1: BPFI 32"]);
-    brinell(here, &["analyze", "o"]).exits(0).says(&["Inner race damage, clear: BPFI at 32"]);
+    brinell(here, &["run", "s.toml", "-o", "o", "--no-report"]).exits(0).says(&[
+        "m/s^2, mean peak to peak of a revolution ",
+        "defect 1: BPFI 32",
+        " (95 %: 3",
+    ]);
+    // The same frequency, with an interval of its own.
+    brinell(here, &["analyze", "o"]).exits(0).says(&[
+        "m/s^2 of noise added before the verdict, as of a quiet machine",
+        "Inner race damage, clear: BPFI at 32",
+        " Hz (95 %: 3",
+    ]);
 }
 
 /// No warning ends a first run under the laws "mechanics", that of parametric work included.

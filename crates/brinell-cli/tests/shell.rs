@@ -137,6 +137,32 @@ fn prop_pages_are_handed_to_the_systems_opener() {
     call(&["run", "s.toml", "-o", "o", "-q", "--open"], &none)
         .exits(0)
         .complains(&["warning: nothing on this system opened the page"]);
+    // One that finds no browser: what to do, and not its exit status.
+    for name in ["xdg-open", "wslview"] {
+        fs::write(bin.join(name), "#!/bin/sh\nexit 3\n").unwrap();
+    }
+    let told = call(&["open", "o/report.html"], &bin)
+        .exits(1)
+        .complains(&["it is one file: open it in a browser", &page.display().to_string()]);
+    assert!(!told.err.contains("tatus"), "{}", told.err);
+}
+
+#[test]
+fn regress_a_word_that_is_none_is_answered_with_the_one_that_is_meant() {
+    for (args, meant) in [
+        (&["rnu", "x"][..], "'run'"),
+        (&["simulate", "x"], "'run'"),
+        (&["gui"], "'studio'"),
+        (&["analyse", "x"], "a similar subcommand exists: 'analyze'"),
+        (&["sweeps", "x"], "'sweep'"),
+        (&["init", "--template", "spall"], "'outer-spall', 'inner-spall'"),
+        (&["init", "--template", "bal"], "'ball'"),
+    ] {
+        brinell(Path::new("."), args).exits(2).complains(&["tip: ", meant]);
+    }
+    // `run` is no command of `defect`.
+    let told = brinell(Path::new("."), &["defect", "rnu"]).exits(2);
+    assert!(!told.err.contains("'run'"), "{}", told.err);
 }
 
 #[test]

@@ -4,13 +4,14 @@ use crate::blur::gaussian;
 use crate::contour::{Field, Outlines};
 use crate::direction::turn;
 use crate::error::{DamageError, check_range};
-use crate::geometry::Polygons;
+use crate::geometry::{Polygons, signed_area};
 use crate::pieces::{Piece, pieces};
 use crate::pixels::{Channel, Pixels, decode};
 use crate::region;
 use crate::segment::{Pieces, Wanted, find};
 use crate::threshold::otsu;
 use brinell::scenario::{ImageEdges, ImageFile, ImagePieces};
+use brinell::signal::short;
 
 /// The full scale of a pixel.
 const FULL: f64 = 65535.0;
@@ -103,6 +104,14 @@ pub fn trace_image(bytes: &[u8], options: &ImageFile) -> Result<Traced, DamageEr
         ));
     }
     let mut rings = outlines.rings;
+    let holes: Vec<f64> = rings.iter().map(|ring| -signed_area(ring)).filter(|area| *area > 0.0).collect();
+    if !holes.is_empty() {
+        said.notes.push(format!(
+            "kept {} in the damage as sound surface, the largest of {} mm^2: where that is a glint, a larger `speck_mm2` fills it",
+            counted(holes.len(), "hole"),
+            short(holes.iter().fold(0.0, |a: f64, b| a.max(*b)) * pixel_mm2, 2)
+        ));
+    }
     let border = [pixels.width as f64, pixels.height as f64];
     let cut = |p: &[f64; 2]| p[0] <= 0.0 || p[1] <= 0.0 || p[0] >= border[0] || p[1] >= border[1];
     if rings.iter().flatten().any(cut) {

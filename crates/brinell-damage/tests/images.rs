@@ -154,6 +154,11 @@ fn analytic_holes_stay_and_specks_go() {
     let said = damage.notes.join("\n");
     assert!(said.contains("the threshold was found as 0.5"), "{said}");
     assert!(said.contains("and filled 1 hole that enclose less than 0.02 mm^2"), "{said}");
+    // The ring's own, of 50 pixels' radius: 3.14 mm^2.
+    assert!(said.contains("kept 1 hole in the damage as sound surface, the largest of 3.1 mm^2"), "{said}");
+    let whole = read_image(&image, &ImageFile { speck_mm2: 3.2, ..options(EDGES) }).unwrap();
+    assert_eq!(whole.polygons_mm.len(), 1);
+    assert!(!whole.notes.join("\n").contains("kept"), "{:?}", whole.notes);
 }
 
 #[test]

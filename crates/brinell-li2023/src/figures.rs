@@ -332,9 +332,9 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
         "Numbers",
         columns,
         cases.iter().map(row),
-        "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits. Parametric work: what damage \
-         that passes under rollers does on the bearing without a body that supplies it, as a share of what the damping of contacts \
-         dissipates; below 0 it takes energy out. Where it is large, amplitudes depend on the contact law.",
+        "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits. Parametric work: the \
+         energy error of the paper’s contact law, as a share of what the damping of contacts dissipates; below 0 it takes energy out. \
+         Where it is large, levels are unreliable.",
     )
 }
 

@@ -126,12 +126,12 @@ pub(crate) fn counts(all: &[Outcome]) -> Vec<(Verdict, usize)> {
         .collect()
 }
 
-/// "2 claims find again what goes in, and are not counted": empty where there are none.
+/// "2 others are trivial, as they find again what goes in, and not counted": empty where there are none.
 pub(crate) fn not_counted(all: &[Outcome]) -> String {
     match all.iter().filter(|t| !t.claim.counts()).count() {
         0 => String::new(),
-        1 => " One claim finds again what goes in, and is not counted.".into(),
-        n => format!(" {n} claims find again what goes in, and are not counted."),
+        1 => " One other is trivial, as it finds again what goes in, and not counted.".into(),
+        n => format!(" {n} others are trivial, as they find again what goes in, and not counted."),
     }
 }
 

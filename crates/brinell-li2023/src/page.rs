@@ -166,7 +166,7 @@ fn lead(request: &Request, outcomes: &[Outcome]) -> String {
     format!(
         "{dynamics} dynamic claims reproduced: {} do not hold, {} hold in part, {} are not decided{quick}. Why: the paper does not state supports, cage \
          contact, oil film, load ramp and filter, which decide many of them, and its own sentences contradict each other in places; each claim says what \
-         it hangs on. Apart from these hold {shapes} that follow from the shapes that go in, and {kinematics} from kinematics and slip.{}",
+         it hangs on. Of claims that are not dynamic {shapes} about shapes and {kinematics} about kinematics and slip are reproduced.{}",
         of(Verdict::Fails),
         of(Verdict::Partly),
         of(Verdict::Undecided),
@@ -185,7 +185,7 @@ fn by_verdict(outcomes: &[Outcome]) -> Vec<Chapter> {
         (format!("claims-{}", verdict.words().replace(' ', "-")), capital(verdict.words()), of.collect())
     });
     let trivial: Vec<&Outcome> = outcomes.iter().filter(|o| !o.claim.counts()).collect();
-    let trivial = Some(("claims-trivial".to_owned(), "Find again what goes in".to_owned(), trivial));
+    let trivial = Some(("claims-trivial".to_owned(), "Trivial: they find again what goes in".to_owned(), trivial));
     counted.chain(trivial.filter(|of| !of.2.is_empty())).map(chapter).collect()
 }
 
@@ -204,9 +204,7 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         facts.push(Fact::new("Depend on an assumption", n.to_string(), "", "of the above"));
     }
     let [dynamics, shapes, kinematics] = held(&reproduction.outcomes);
-    let beside = format!(
-        "beside them hold {shapes} that follow from the shapes that go in, {kinematics} from kinematics and slip"
-    );
+    let beside = format!("and {shapes} about shapes, {kinematics} about kinematics and slip");
     facts.insert(0, Fact::new("Dynamic claims reproduced", dynamics, "", beside));
     facts
 }

@@ -231,7 +231,7 @@ impl Measurement {
         self.notes.extend(self.run.as_deref().map(truth));
         self.notes.extend(noise.map(|noise| {
             format!(
-                "its sensor has less noise than a quiet machine: for the verdict {} {} are added",
+                "{} {} of noise added before the verdict, as of a quiet machine: the simulation has less",
                 short(noise, 3),
                 self.unit.value.name
             )

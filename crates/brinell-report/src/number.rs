@@ -74,7 +74,15 @@ pub(crate) fn with_interval(value: f64, low: f64, high: f64) -> [String; 3] {
         return all.map(|x| significant(x, 4));
     }
     let decimals = (1 - half_width.log10().floor() as i32).clamp(0, 12) as usize;
-    all.map(|x| group_thousands(&format!("{x:.decimals$}")).replace('-', "−"))
+    all.map(|x| group_thousands(without_minus_zero(&format!("{x:.decimals$}"))).replace('-', "−"))
+}
+
+/// A decimal number as text; what was rounded to zero has no sign.
+fn without_minus_zero(text: &str) -> &str {
+    match text.strip_prefix('-') {
+        Some(positive) if positive.bytes().all(|b| matches!(b, b'0' | b'.')) => positive,
+        _ => text,
+    }
 }
 
 fn trim_zeros(text: &str) -> String {
@@ -292,6 +300,10 @@ mod tests {
         }
         assert_eq!(with_interval(22.913, 22.5, 23.3426), ["22.91", "22.50", "23.34"]);
         assert_eq!(with_interval(1234.5, 1200.0, 1274.0), ["1234", "1200", "1274"]);
+        // No bound is minus zero.
+        assert_eq!(with_interval(2.1, -0.04, 4.24), ["2.1", "0.0", "4.2"]);
+        assert_eq!(with_interval(30.0, -0.4, 60.4), ["30", "0", "60"]);
+        assert_eq!(with_interval(1.0, -0.06, 2.06), ["1.0", "−0.1", "2.1"]);
     }
 
     #[test]

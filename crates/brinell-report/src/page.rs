@@ -271,7 +271,7 @@ pub fn html(page: &Page) -> String {
     let shown = || page.chapters.iter().filter(|chapter| !chapter.short.is_empty());
     contents(&mut html, shown().map(|chapter| (&*chapter.id, &*chapter.short)));
     lead(&mut html, &page.lead);
-    page.warnings.iter().for_each(|words| alert(&mut html, "", words));
+    page.warnings.iter().for_each(|words| alert(&mut html, "", unprefixed(words)));
     facts(&mut html, &page.facts);
     let mut count = 0;
     for chapter in shown() {
@@ -284,6 +284,11 @@ pub fn html(page: &Page) -> String {
         });
     }
     close(html, &page.footer, &[page.script])
+}
+
+/// A warning without the word that lines of a terminal begin with: the box says it.
+fn unprefixed(words: &str) -> &str {
+    ["warning: ", "warning, "].iter().find_map(|prefix| words.strip_prefix(prefix)).unwrap_or(words)
 }
 
 fn write_piece(page: &mut String, piece: &Piece, count: usize) {
@@ -359,6 +364,15 @@ fn write_piece(page: &mut String, piece: &Piece, count: usize) {
 mod tests {
     use super::*;
     use crate::claims::{ClaimPart, Tagged};
+
+    #[test]
+    fn regress_warnings_of_all_pages_begin_alike() {
+        let given = ["warning: a = 1: high", "warning, line 5: b = 2: low", "refined: once more", "warnings differ"];
+        let page = html(&Page { warnings: given.map(String::from).into(), ..Page::default() });
+        for shown in ["a = 1: high", "line 5: b = 2: low", "refined: once more", "warnings differ"] {
+            assert!(page.contains(&format!("role=\"alert\">{shown}</p>")), "{shown}");
+        }
+    }
 
     #[test]
     fn prop_every_piece_is_on_the_page_and_nothing_is_markup() {

@@ -5,6 +5,7 @@ mod analysis;
 mod beside;
 mod cases;
 mod drift;
+mod rate;
 mod rig;
 mod signal_scipy;
 mod together;

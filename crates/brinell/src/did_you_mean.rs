@@ -11,7 +11,7 @@ pub(crate) fn nearest_few<'a>(word: &str, known: impl Iterator<Item = &'a str>) 
 }
 
 /// The nearest of `known` to `word`, if any is near.
-pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     nearest(word, &known.collect::<Vec<_>>())
 }
 

@@ -160,7 +160,8 @@ pub mod contact;
 #[doc(hidden)]
 pub mod defect;
 pub mod derived;
-mod did_you_mean;
+#[doc(hidden)]
+pub mod did_you_mean;
 pub mod document;
 #[doc(hidden)]
 pub mod edge;

@@ -89,3 +89,13 @@ fn prop_examples_run() {
         assert!(moved, "{stem}: the outer ring does not move");
     }
 }
+
+/// A newcomer types what comes first: one command that does the main job, one that passes the tests.
+#[test]
+fn regress_readme_begins_with_its_two_commands() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
+    let text = std::fs::read_to_string(readme).unwrap();
+    let blocks: Vec<&str> = text.split("```").skip(1).step_by(2).take(2).collect();
+    let run = "sh\ncargo run --release -- run examples/rectangle.toml -o out/rectangle\n";
+    assert_eq!(blocks, [run, "sh\ncargo test\n"]);
+}

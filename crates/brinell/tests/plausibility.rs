@@ -46,7 +46,7 @@ fn prop_damage_outside_the_load_zone_is_said_of_the_outer_raceway_alone() {
             assert!(
                 told.contains("defects.0.center_deg")
                     && told.contains("outside the load zone, which is")
-                    && told.contains("allowed: -"),
+                    && told.contains("advised: -"),
                 "{told}"
             );
         } else {
@@ -212,7 +212,7 @@ fn prop_a_deep_step_over_the_whole_width_is_said_of_a_point_alone() {
     let whole = ("defects.0.shape", "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }");
     let deep = ("defects.0.depth_um", "100");
     let told = warning(&[whole, deep]);
-    for words in ["100 um deep", "drops by the whole depth at once", "allowed: \"envelope\""] {
+    for words in ["100 um deep", "drops by the whole depth at once", "advised: \"envelope\""] {
         assert!(told.contains(words), "no {words} in {told}");
     }
     silent(&[whole, deep, ("contact.roller_path", "envelope")]);
@@ -319,7 +319,7 @@ fn analytic_a_run_must_outlast_its_start() {
     silent(&duration("0.13"));
     let told = warning(&duration("0.129"));
     assert!(
-        told.contains("too short to settle: the load's ramp of 0.0200 s") && told.contains("allowed: >= 0.130 s"),
+        told.contains("too short to settle: the load's ramp of 0.0200 s") && told.contains("advised: >= 0.130 s"),
         "{told}"
     );
     warning(&duration("0.01"));
@@ -377,7 +377,7 @@ fn regress_an_audit_that_does_not_close_is_said() {
     energy.parametric = -0.95;
     let words = "the energy balance error is 2.6 %";
     assert!(told(&s, energy).contains(words), "{}", told(&s, energy));
-    assert!(told(&s, energy).contains("raise simulation.accuracy (allowed: \"reference\")"));
+    assert!(told(&s, energy).contains("raise simulation.accuracy to \"reference\""));
     let mut tight = s.clone();
     tight.simulation.accuracy = brinell::scenario::Accuracy::Reference;
     assert!(told(&tight, energy).contains("\"reference\" already"));

@@ -80,6 +80,6 @@ pub(super) fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
     if lines.len() == 0 {
         return plots;
     }
-    plots.push(IndicatorPlot { limits, ..plot("score", "Score of a family", "", lines.collect()) });
+    plots.push(IndicatorPlot { limits, ..plot("score", "Detection score", "", lines.collect()) });
     plots
 }

@@ -66,7 +66,7 @@ pub(super) fn chapters(trend: &Trend) -> Vec<Chapter> {
     let (scores, levels): (Vec<&Followed>, Vec<&Followed>) = trend.levels.iter().partition(|of| !of.level.by_factors);
     pieces.extend(levels.into_iter().map(|of| plot(trend, &of.level.name, &of.level.label, &[of])).map(Piece::Trend));
     if !scores.is_empty() {
-        pieces.push(Piece::Trend(plot(trend, "score", "Score of a family", &scores)));
+        pieces.push(Piece::Trend(plot(trend, "score", "Detection score", &scores)));
     }
     vec![
         Chapter::table("changes", "What changed", table),

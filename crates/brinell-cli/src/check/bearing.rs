@@ -86,7 +86,7 @@ pub(super) fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
         true => say!("  ring on its support     inner {inner} Hz; the outer one is held"),
         false => say!("  rings on their supports inner {inner} Hz, outer {outer} Hz"),
     }
-    say!("  {:<23} {} ms", format!("{element} after {element}"), short(1e3 * d.roller_period, 4));
+    say!("  ball-pass period        {} ms", short(1e3 * d.roller_period, 4));
     for (defect, time) in model.defects.iter().zip(&d.defect_passes) {
         let (first, last) = defect.shape.arc();
         say!(

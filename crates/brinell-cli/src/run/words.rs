@@ -72,10 +72,13 @@ fn sensor_lines(simulation: &Simulation, findings: &Findings) -> Vec<String> {
         let interval = rms
             .interval
             .map_or(String::new(), |i| format!(" (95 %, scatter only: {} to {})", short(i.low, 3), short(i.high, 3)));
-        let of = if channel.blocks.revolutions() > 0 { "a revolution" } else { "of the record" };
+        let [mean, of] = match channel.blocks.revolutions() {
+            0 => ["", "of the record"],
+            _ => ["mean ", "of a revolution"],
+        };
         let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
         printed.push(format!(
-            "  {}: RMS {}{interval} {}, peak to peak {} {of}, kurtosis {}",
+            "  {}: RMS {}{interval} {}, {mean}peak to peak {of} {}, kurtosis {}",
             channel.name,
             short(rms.value, 3),
             channel.unit,

@@ -48,7 +48,10 @@ pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
     let listener = listener.map_err(no_port)?;
     let port = listener.local_addr().map_err(no_port)?.port();
     let shared = Arc::new(Shared { door: Door::new(port, token()?), pages: Pages::default() });
-    let words = format!("The studio is at {} until Ctrl-C. Only this machine can reach it.", shared.door.address());
+    let words = format!(
+        "The studio is at {} until Ctrl-C: open that address in a browser. Only this machine can reach it.",
+        shared.door.address()
+    );
     // Nobody could find it otherwise.
     crate::say::at_once(&words).map_err(Failure::Output)?;
     let places = Arc::<Places>::default();

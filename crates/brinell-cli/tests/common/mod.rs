@@ -75,7 +75,7 @@ impl Call {
         let told = |line: &&str| {
             let short =
                 line.starts_with("warning: simulation.duration_s = 0.0") && line.contains("too short to settle");
-            short || *line == "  allowed: >= 0.160 s" || line.ends_with(".toml:")
+            short || *line == "  advised: >= 0.160 s" || line.ends_with(".toml:")
         };
         let (told, rest): (Vec<&str>, Vec<&str>) = self.err.lines().partition(told);
         assert!(!told.is_empty() && rest.is_empty(), "{self:#?}");

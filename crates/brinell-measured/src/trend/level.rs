@@ -96,7 +96,7 @@ pub(super) fn levels(records: &[Value]) -> Vec<Level> {
         let whose = bearing.map_or(String::new(), |name| format!("{name}: "));
         levels.push(Level {
             name: format!("{whose}score_{component}"),
-            label: format!("Score of {whose}{frequency}"),
+            label: format!("Detection score of {whose}{frequency}"),
             unit: String::new(),
             by_factors: false,
             points: all.iter().map(of).collect(),

@@ -190,7 +190,7 @@ fn evidence(a: &Analysis) -> Table {
         "#Found, Hz",
         "#Deviation, %",
         "Multiples",
-        "#Over noise, dB",
+        "#SNR, dB",
         "#Modulation, %",
         "Assessment",
     ];

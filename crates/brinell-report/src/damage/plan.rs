@@ -238,7 +238,7 @@ fn contact_words(view: &DamageView) -> [String; 2] {
     let around = view.half_turn_mm.is_some_and(|half| half.is_finite() && half > 0.0);
     let (who, other) = match around {
         true => ("contacts pass".to_owned(), "the contact with the other raceway then".to_owned()),
-        false => (format!("{}s pass", view.element()), format!("the {} above it", view.element())),
+        false => (format!("{}s pass", view.element()), format!("{} outline", view.element())),
     };
     let entry = "line of contact at defect entry";
     let side = |plus: bool| if plus { "right" } else { "left" };

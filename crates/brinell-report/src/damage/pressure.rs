@@ -117,7 +117,7 @@ pub fn damage_pressure(view: &DamageView, of: &PressureView, index: usize, layou
             &of.title,
             size,
             (domain(0), "s from the defect’s centre", "mm"),
-            (domain(1), "z across", "mm"),
+            (domain(1), "Axial, z", "mm"),
         )
     });
     if of.rows() == 0 {

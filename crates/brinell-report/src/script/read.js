@@ -107,7 +107,7 @@ function tell(plot) {
   const { chart } = plot, x = plot.cursor ?? chart.pin;
   chart.plots.forEach(mark);
   if (x !== null && x !== undefined) chart.readout.textContent = words(plot, x);
-  else chart.readout.textContent = chart.reference === null ? chart.hint : `${single(plot, chart.reference)} · ${chart.hint}`;
+  else chart.readout.textContent = [chart.reference === null ? "" : single(plot, chart.reference), chart.hint].filter(Boolean).join(" · ");
 }
 
 function set(plot, x) {

@@ -135,7 +135,8 @@ function plotOf(svg, chart) {
   return { svg, chart, name: svg.dataset.plot, frame, view, home: view, original: svg.innerHTML, y, cursor: null, font: Number(svg.dataset.font), lane: chart.laneHeight, top: Number(svg.dataset.top), yScale: chart.yScale, laneText: svg.querySelector(".lane text")?.cloneNode(false) };
 }
 
-const titles = new Set();
+// Hints are said above the first plot that they hold for: the others are read in the same way.
+const titles = new Set(), said = new Set();
 document.querySelectorAll("figure").forEach((figure) => {
   const drawings = [...figure.querySelectorAll("svg")];
   if (!drawings.length) return;
@@ -148,7 +149,9 @@ document.querySelectorAll("figure").forEach((figure) => {
   bar.className = "tools";
   const reads = chart && chart.curves.some((curve) => curve.values.length > (chart.still ? 1 : 8));
   if (reads) {
-    chart.hint = chart.still ? "Point at the plot to read it; click to set the cursor" : "Drag, pinch or Ctrl + wheel to zoom, double click to go back; click to set the cursor";
+    const hint = chart.still ? "Point at the plot to read it; click to set the cursor" : "Drag, pinch or Ctrl + wheel to zoom, double click to go back; click to set the cursor";
+    chart.hint = said.has(hint) ? "" : hint;
+    said.add(hint);
     const plot = () => chart.plots[drawings.indexOf(current())], view = () => plot().view;
     if (!chart.still && !chart.small) bar.append(
       ...choices(chart, title),

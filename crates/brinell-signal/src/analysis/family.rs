@@ -17,6 +17,7 @@ mod replay;
 use super::Options;
 use super::frequencies::Component;
 use super::together::{HARMONICS, Highest, Place, Together};
+use crate::Interval;
 use serde::Serialize;
 
 /// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than
@@ -121,6 +122,9 @@ pub struct Family {
     pub expected: f64,
     /// Where its lines are highest, Hz.
     pub frequency: f64,
+    /// 95 % interval of that as the mean rate of its impacts over the record: of damage, where there is one record at a speed that
+    /// was not followed.
+    pub interval: Option<Interval>,
     /// Sum of ln(power over floor) over the harmonics, none counting more than those below it.
     pub score: f64,
     /// The score from which a record of this length shows damage.
@@ -356,6 +360,7 @@ fn within(
         name,
         expected,
         frequency,
+        interval: None,
         score,
         limit,
         noise,

@@ -32,7 +32,7 @@ objects! {
     Frequency<'a> {
         component: Component, name: &'static str, says: &'static str, shared_with: Option<&'static str>,
         may_be_passing: bool, masked: bool, other_spacing_hz: Option<f64>, others_slip: Option<f64>, expected_hz: f64,
-        found_hz: f64, order: f64, shift: f64, score: f64, limit: f64, noise: f64, modulation: f64,
+        found_hz: f64, found_interval_hz: Option<[f64; 2]>, order: f64, shift: f64, score: f64, limit: f64, noise: f64, modulation: f64,
         over_healthy: Option<f64>, harmonics: &'a [Harmonic], sidebands: Option<Sidebands>,
     }
     /// How many of its sidebands are detected.
@@ -160,6 +160,7 @@ fn frequency<'a>(analysis: &Analysis, f: &'a Family) -> Frequency<'a> {
         others_slip: f.others_slip,
         expected_hz: f.expected,
         found_hz: f.frequency,
+        found_interval_hz: f.interval.map(|i| [i.low, i.high]),
         order: f.frequency / analysis.shaft,
         shift: f.shift(),
         score: f.score,

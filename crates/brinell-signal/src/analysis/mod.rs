@@ -24,6 +24,7 @@ mod json;
 mod known_lines;
 mod levels;
 mod options;
+mod rate;
 mod result;
 mod running_median;
 mod sensitivity;
@@ -112,9 +113,16 @@ pub fn analyze_records(records: &[(&[f64], f64)], fs: f64, options: &Options) ->
     let whole = !(flaws.iter()).any(|(_, f)| matches!(f, Flaw::Held { .. }));
     let Told { map, evidence, transformed, other_rate } = tell(&prepared, fs, options, whole && count == 1)?;
     flaws.extend(other_rate.map(|(fits, lines)| (0, Flaw::OtherRate { fits, given: fs, lines })));
-    let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
+    let Best { mut record, envelopes, shaft_lines, drift, at_given } =
+        hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
     let damaged = record.is_damage();
+    // Several records, or one whose angle was followed, have no one rate.
+    if let ([only], None) = (&prepared[..], &record.options.rotation) {
+        for family in record.families.iter_mut().filter(|family| family.finding == Finding::Damage) {
+            family.interval = rate::interval(&only.x, fs, view.band, family.frequency);
+        }
+    }
     let each: Vec<&[f64]> = prepared.iter().map(|r| &r.x[..]).collect();
     let silent = !damaged && !record.options.exact;
     let above = silent.then(|| Some((kurtosis_in(view.band, &each, fs, record.shaft)?, view.band.low))).flatten();

@@ -163,7 +163,7 @@ impl Analysis {
                 format!("{:+.2}", 100.0 * f.shift()),
                 match f.hidden_harmonics() {
                     0 => format!("{} of {}", f.detected_harmonics(), f.harmonics.len()),
-                    n => format!("{} of {}, {n} hidden", f.detected_harmonics(), f.harmonics.len() - n),
+                    n => format!("{} of {}, {n} masked", f.detected_harmonics(), f.harmonics.len() - n),
                 },
                 format!("{:.0}", f.highest_db()),
                 format!("{:.0}", 100.0 * f.modulation),

@@ -187,7 +187,11 @@ impl fmt::Display for Problem {
         }
         write!(f, "{}", cut_words(&self.message))?;
         if let Some(allowed) = &self.allowed {
-            write!(f, "\n  allowed: {allowed}")?;
+            let word = match self.severity {
+                Severity::Error => "allowed",
+                Severity::Warning => "advised",
+            };
+            write!(f, "\n  {word}: {allowed}")?;
             // The words may hold the unit already.
             let said = |unit: &&str| allowed.split([' ', ',', ';']).any(|word| word == *unit);
             match self.unit.filter(|unit| !said(unit)) {

@@ -18,6 +18,14 @@ const MOST_STEPS: f64 = 1e8;
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 
+/// The bearing of Li et al.
+const PAPERS_BEARING: &str = "NN3007";
+
+/// Why a value is the one that it is: of the paper's bearing alone that the paper leaves it open. Who has another bearing knows no paper.
+fn left_open(b: &Bearing, of_papers: &'static str, of_others: &'static str) -> &'static str {
+    if b.preset.as_deref() == Some(PAPERS_BEARING) { of_papers } else { of_others }
+}
+
 pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     let name = key("name", "name of the run, free text");
     k.key(name, stated("unnamed".into(), "no name given"), &mut s.name);
@@ -39,7 +47,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         contact(k, (laws, model, &s.bearing), &mut s.contact)
     });
     k.section(key("friction", "rollers on raceways, along the surface"), |k| {
-        friction(k, (laws, geometry), &mut s.friction)
+        friction(k, (laws, geometry, &s.bearing), &mut s.friction)
     });
     k.section(key("lubricant", "oil"), |k| lubricant(k, &s.bearing, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| operation(k, (model, &s.bearing), &mut s.operation));
@@ -55,11 +63,11 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     });
     let pushes = s.has_damage_that_pushes() || s.waves().next().is_some();
     k.section(key("simulation", "what to compute and to record"), |k| {
-        simulation(k, (&s.operation, pushes), &mut s.simulation)
+        simulation(k, (&s.bearing, &s.operation, pushes), &mut s.simulation)
     });
 }
 
-fn friction<K: Keys>(k: &mut K, (laws, geometry): (Laws, GeometryLaw), f: &mut Friction) {
+fn friction<K: Keys>(k: &mut K, (laws, geometry, b): (Laws, GeometryLaw, &Bearing), f: &mut Friction) {
     k.key(
         key("raceway_coefficient", "mu").plausible(0.005, 0.1).from(0.0),
         assumed(0.02, PAPER),
@@ -67,7 +75,14 @@ fn friction<K: Keys>(k: &mut K, (laws, geometry): (Laws, GeometryLaw), f: &mut F
     );
     k.key(
         key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").plausible_times(0.2, 5.0).above(0.0),
-        assumed(0.05, "regularises friction; the paper does not state it"),
+        assumed(
+            0.05,
+            left_open(
+                b,
+                "regularises friction; the paper does not state it",
+                "regularises friction: from 0.15 m/s of slip on it is Coulomb's within 0.5 %",
+            ),
+        ),
         &mut f.slip_velocity_m_per_s,
     );
     let rolling = match laws {
@@ -92,7 +107,7 @@ fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
         key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film")
             .plausible(0.003, 0.1)
             .from(0.0),
-        assumed(0.01, "warm spindle oil; the paper does not state it"),
+        assumed(0.01, left_open(b, "warm spindle oil; the paper does not state it", "warm spindle oil")),
         &mut l.viscosity_pa_s,
     );
     k.key_where(
@@ -126,7 +141,14 @@ fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Oper
     k.key(key("load_on", "ring that carries the load"), stated(LoadOn::OuterRing, "the paper's rig"), &mut o.load_on);
     k.key(
         key("load_ramp_s", "time over which the load rises").from(0.0),
-        assumed(0.02, "the paper does not state it"),
+        assumed(
+            0.02,
+            left_open(
+                b,
+                "the paper does not state it",
+                "long beside the periods of contacts, short beside a usual run",
+            ),
+        ),
         &mut o.load_ramp_s,
     );
     k.key(
@@ -183,7 +205,14 @@ fn support<K: Keys>(
             support_scale(b),
             "soft on the loaded ring, no stiffer than its load over 0.3 mm, and stiff on the other; larger bearings than the NN3007 on stiffer ones",
         ),
-        Laws::Li2023 => (1.0, "soft on the loaded ring, stiff on the other; the paper does not state it"),
+        Laws::Li2023 => (
+            1.0,
+            left_open(
+                b,
+                "soft on the loaded ring, stiff on the other; the paper does not state it",
+                "soft on the loaded ring, stiff on the other, as assumed for the paper's bearing",
+            ),
+        ),
     };
     let soft = |mass: f64| match laws {
         Laws::Mechanics => least_of_load(o, mass).map_or(1e6 * scale, |most| (1e6 * scale).min(most)),
@@ -195,7 +224,9 @@ fn support<K: Keys>(
     };
     let damping = masses.map(|mass| match laws {
         Laws::Mechanics => derived(0.2 * (5e7 * scale * mass).sqrt(), "a tenth of critical on the stiff support"),
-        Laws::Li2023 => assumed(500.0, "the paper does not state it"),
+        Laws::Li2023 => {
+            assumed(500.0, left_open(b, "the paper does not state it", "as assumed for the paper's bearing"))
+        }
     });
     k.key(
         key("inner_stiffness_n_per_m", "k_i").plausible_times(0.2, 5.0).from(0.0),
@@ -268,19 +299,20 @@ fn housing<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), h: &mut Housing) {
 
 /// Half a second; of a slow bearing four turns of the shaft after the load's ramp, in which every element passes the load
 /// zone once.
-fn duration(laws: Laws, o: &Operation) -> Fallback<f64> {
+fn duration(laws: Laws, (b, o): (&Bearing, &Operation)) -> Fallback<f64> {
     const USUAL: f64 = 0.5;
+    const LONG_ENOUGH: &str = "long enough for statistics of a bearing that is not slow";
     let of_turns = o.speed_rpm.constant().map_or(0.0, |rpm| o.load_ramp_s + 4.0 * 60.0 / rpm.abs());
     match laws {
         Laws::Mechanics if of_turns > USUAL && of_turns <= 1e6 => {
             derived(of_turns, "four turns of the shaft after the load's ramp")
         }
-        Laws::Mechanics => assumed(USUAL, "long enough for statistics of a bearing that is not slow"),
-        Laws::Li2023 => assumed(USUAL, "the paper does not state it"),
+        Laws::Mechanics => assumed(USUAL, LONG_ENOUGH),
+        Laws::Li2023 => assumed(USUAL, left_open(b, "the paper does not state it", LONG_ENOUGH)),
     }
 }
 
-fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simulation) {
+fn simulation<K: Keys>(k: &mut K, (b, o, pushes): (&Bearing, &Operation, bool), s: &mut Simulation) {
     let laws = match s.model {
         ModelKind::Lumped => "the lumped model is the paper's",
         ModelKind::Full | ModelKind::Tilting => "the usual set",
@@ -300,7 +332,7 @@ fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simul
     k.key(key("geometry", "normals and levers of contacts"), geometry, &mut s.geometry);
     k.key(key("seed", "of the phases of waviness"), stated(1, "the first"), &mut s.seed);
     k.key(key("model", "equations"), stated(ModelKind::Full, "the model itself"), &mut s.model);
-    k.key(key("duration_s", "simulated time").above(0.0).to(1e6), duration(s.laws, o), &mut s.duration_s);
+    k.key(key("duration_s", "simulated time").above(0.0).to(1e6), duration(s.laws, (b, o)), &mut s.duration_s);
     k.key(
         key("sample_rate_hz", "f_s").above(0.0).to(1e9),
         stated(25600.0, "the paper's data logger"),
@@ -309,7 +341,14 @@ fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simul
     k.key(key("start", "state at t = 0"), stated(Start::Rolling, PAPER), &mut s.start);
     k.key(
         key("accuracy", "tolerance of the integrator"),
-        assumed(Accuracy::Standard, "the paper does not state its integrator"),
+        assumed(
+            Accuracy::Standard,
+            left_open(
+                b,
+                "the paper does not state its integrator",
+                "the energy audit of a run says whether it is enough",
+            ),
+        ),
         &mut s.accuracy,
     );
     k.key(

@@ -183,7 +183,7 @@ fn residual(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> 
         ));
     }
     let remedy = match scenario.simulation.accuracy {
-        Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
+        Accuracy::Standard => "raise simulation.accuracy to \"reference\"",
         Accuracy::Reference => {
             "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path)"
         }

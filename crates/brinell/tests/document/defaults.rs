@@ -103,6 +103,26 @@ fn regress_every_value_has_an_origin_and_guesses_are_assumed() {
     assert_eq!((&mass.origin, mass.assumed), (&Origin::Override, false));
 }
 
+/// Which paper, asks who has another bearing.
+#[test]
+fn regress_what_the_paper_does_not_state_is_said_of_its_bearing_alone() {
+    let of = |bearing: &str| {
+        format!("[bearing]\npreset = \"{bearing}\"\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n")
+    };
+    let silences = |text: &str, set: &[(&str, &str)]| -> Vec<String> {
+        let loaded = with(text, set).unwrap_or_else(|problems| panic!("{}", report(&problems)));
+        let why = loaded.provenance.iter().filter(|p| format!("{:?}", p.origin).contains("does not state"));
+        why.map(|p| p.key.clone()).collect()
+    };
+    for set in [&[][..], &[LI2023]] {
+        assert!(silences(&of("NN3007"), set).contains(&"operation.load_ramp_s".to_owned()), "{set:?}");
+        for other in [BARE, &of("NU206")] {
+            assert_eq!(silences(other, set), Vec::<String>::new(), "{set:?}");
+        }
+    }
+    assert_eq!(silences(&of("6205"), &[]), Vec::<String>::new());
+}
+
 #[test]
 fn regress_the_file_outranks_the_preset() {
     let text = "[bearing]\npreset = \"nn3007\"\nradial_clearance_um = 5\n[operation]\nspeed_rpm = 1\nload_n = [1, 0]\n";

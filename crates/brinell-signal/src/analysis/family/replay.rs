@@ -26,6 +26,7 @@ fn family(row: &[&str]) -> Family {
         name,
         expected,
         frequency: expected,
+        interval: None,
         score: number(3),
         limit,
         noise,

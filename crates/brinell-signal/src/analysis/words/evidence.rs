@@ -11,8 +11,9 @@ pub(super) fn evidence_of(family: &Family) -> String {
         }
         _ => String::new(),
     };
+    let interval = family.interval.map_or(String::new(), |i| format!("95 %: {:.2} to {:.2} Hz; ", i.low, i.high));
     format!(
-        "{} at {:.2} Hz ({:+.2} % of pure rolling), {} up to {:.0} dB over noise{sidebands}, modulating by {:.0} %",
+        "{} at {:.2} Hz ({interval}{:+.2} % of pure rolling), {} up to {:.0} dB over noise{sidebands}, modulating by {:.0} %",
         family.name,
         family.frequency,
         100.0 * family.shift(),
