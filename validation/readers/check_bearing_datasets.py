@@ -1,6 +1,6 @@
 """Data sets of `brinell dataset`, built and read by the Python package bearing-datasets: python check_bearing_datasets.py FOLDER FOLDER...
 
-The first FOLDER holds labels out, and one is of a machine. See README.md."""
+The first FOLDER holds labels out; one is of a machine, and one of histories. See README.md."""
 
 import json
 import pathlib
@@ -11,6 +11,7 @@ import tempfile
 import bearing_datasets as bd
 import numpy as np
 import pandas as pd
+from bearing_datasets.bearings import fault_orders
 from bearing_datasets.schema import REQUIRED
 
 FAULTS = {"inner-raceway": "inner", "outer-raceway": "outer", "roller": "rolling_element"}
@@ -22,8 +23,8 @@ def command(root, *words):
     return done.stdout
 
 
-def check(folder, root):
-    """Builds a data set and holds it against its Parquet files; its name."""
+def check(folder, root, done):
+    """Builds a data set beside those that are done and holds it against its Parquet files; its name and its table."""
     about = json.loads((folder / "dataset.json").read_text())
     before = {path for path in folder.rglob("*") if "__pycache__" not in path.parts}
     told = command(root, "build", str(folder / "bearing_datasets"))
@@ -70,26 +71,37 @@ def check(folder, root):
     for order in ["bpfo", "bpfi", "bsf", "ftf"]:
         wanted = runs[f"{order}_hz"] * 60 / runs.speed_rpm
         assert first.index.tolist() == wanted.index.tolist() and ((first[order] - wanted).abs() < 5.01e-6).all()  # has five decimals
-    return name, meta, runs
+    (check_machine if "bearings" in runs else check_load)(meta, runs, about)
+    return name, meta
+
+
+def check_load(meta, runs, _):
+    assert (meta.load == meta.run.map(runs.load_n.map(lambda load: np.hypot(*load)))).all() and (meta.load_unit == "N").all()
+
+
+def check_machine(meta, runs, about):
+    near = meta.channel.map({"housing1.drive_end": 1, "housing1.fan_end": 2, "bearing2.cage1_speed": 2, "shaft.x1": -1})
+    damaged = meta.run.map(runs.damaged_bearing)
+    assert (meta.sensor_at_fault == (near == damaged)).all() and meta.sensor_at_fault.any()
+    assert (meta.fault_bearing == damaged).all() and "load" not in meta
+    assert len(runs) < about["runs"]["total"]
+    shaft, fan_end = [meta[meta.channel == channel].iloc[0] for channel in ("shaft.x1", "housing1.fan_end")]
+    assert (shaft.quantity, shaft.unit) == ("displacement", "m")
+    assert (fan_end.sensor_location, fan_end.sensor_bearing, fan_end.bearing_model) == ("machine_bearing_nde", 2, "6203")
+    # The second bearing's frequencies by the package's own formulas.
+    keys = {key["key"]: key["value"] for key in about["geometry"]["keys"]}
+    sizes = [float(keys[f"bearing.1.{key}"]) for key in ("rollers_per_row", "roller_diameter_mm", "pitch_diameter_mm")]
+    assert all(abs(fan_end[name] - order) < 1.01e-5 for name, order in fault_orders(*sizes).items()), fan_end
 
 
 with tempfile.TemporaryDirectory() as root:
-    done, metas = set(), {}
+    metas = {}
     for folder in map(pathlib.Path, sys.argv[1:]):
-        name, meta, runs = check(folder, root)
-        done.add(name)
+        name, meta = check(folder, root, set(metas))
         metas[name] = meta
-        if "bearings" in runs:
-            near = meta.channel.map({"housing1.drive_end": 1, "housing1.fan_end": 2, "bearing2.cage1_speed": 2, "shaft.x1": -1})
-            assert (meta.sensor_at_fault == (near == meta.run.map(runs.damaged_bearing))).all() and meta.sensor_at_fault.any()
-            assert (meta.fault_bearing == meta.run.map(runs.damaged_bearing)).all()
-            assert len(runs) < json.loads((folder / "dataset.json").read_text())["runs"]["total"]
-            assert dict(zip(meta.channel, meta.bearing_model))["housing1.fan_end"] == "6203"
-            assert dict(zip(meta.channel, meta.quantity))["shaft.x1"] == "displacement" and "load" not in meta
-        else:
-            assert (meta.load == meta.run.map(runs.load_n.map(lambda load: np.hypot(*load)))).all() and (meta.load_unit == "N").all()
     held, *_ = metas.values()
     assert "unknown" in set(held.fault_type) and "fault_size_mm" not in held
+    assert any("fault_bearing" in meta for meta in metas.values())
     assert any("rul_s" in meta and np.isinf(meta.rul_s).any() for meta in metas.values())
     beside = bd.load_metadata(list(metas), root=root)
     assert len(beside) == sum(map(len, metas.values())) and set(beside.dataset) == set(metas)

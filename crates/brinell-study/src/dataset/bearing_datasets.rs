@@ -58,9 +58,10 @@ pub(crate) fn identifier(name: &str) -> String {
 }
 
 fn description(about: &About) -> String {
-    let runs = match &about.histories {
-        Some(histories) => format!("{} runs, the lives of {} machines in snapshots", about.total(), histories.machines),
-        None => format!("{} runs", about.total()),
+    let runs = match (about.total(), &about.histories) {
+        (runs, Some(histories)) => format!("{runs} runs, the lives of {} machines in snapshots,", histories.machines),
+        (1, None) => "one run".into(),
+        (runs, None) => format!("{runs} runs"),
     };
     let mut text = format!(
         "Simulated, not measured: {runs} of rolling bearings by brinell {}. A recording is one complete run; runs that failed have none. A signal begins where the run has \
