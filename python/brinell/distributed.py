@@ -41,7 +41,7 @@ _Files = dict[str, bytes]
 #: What a worker's file may be called.
 _ARRIVING = re.compile(r"(runs|truth|held_out)/part-\d{5,}\.parquet|work/(campaign|part-\d{5,})\.json")
 #: What a worker writes and nobody fetches: of a data set of one file the descriptions of the whole.
-_STAYING = re.compile(r"dataset\.json|croissant\.json|README\.md|held_out/_plan\.json|work/part-\d{5,}/.*")
+_STAYING = re.compile(r"dataset\.json|croissant\.json|README\.md|bearing_datasets/.*|held_out/_plan\.json|work/part-\d{5,}/.*")
 #: Temporary folders, by the process that made them.
 _TEMPORARY = re.compile(r"brinell-(?:plan|part)-(\d+)-.*")
 

@@ -38,6 +38,7 @@ use std::path::PathBuf;
     truth/part-00000.parquet   of the same rows damage, entries, forces, warnings, scenario\n  \
     dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
     README.md                  the card: splits, classes, what two simple classifiers tell\n  \
+    bearing_datasets/          for the Python package bearing-datasets, beside measured data sets\n  \
     held_out/                  labels and truth of the runs that `held_out` sets apart\n  \
     sheet.html                 a few runs of each class to look at: `brinell dataset sheet`\n  \
     work/                      finished runs of unfinished files\n\n\

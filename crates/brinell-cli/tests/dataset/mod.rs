@@ -1,6 +1,7 @@
 //! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not
 //! fit is reported.
 
+mod bearing_datasets;
 mod bytes;
 mod heed;
 mod histories;

@@ -3,6 +3,7 @@
 
 use crate::dataset::about::{About, ColumnOf, Facts, Histories, Runs, Split, Sum};
 use crate::dataset::baseline::baselines;
+use crate::dataset::bearing_datasets::identifier;
 use crate::dataset::columns::RUN;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{TRUTH, put, written};
@@ -156,10 +157,12 @@ fn card(about: &About) -> String {
         card,
         "\nOne row is one run. Signals: {}; sample k is at k / `sample_rate_hz`. `dataset.json` lists every column with its unit and meaning, the bearing's \
          geometry, and what was assumed.\n\n```python\nfrom datasets import load_dataset\nruns = load_dataset(\"path/to/this/folder\")\ntruth = load_dataset(\"path/to/this/folder\", \"{TRUTH}\")   \
-         # the same rows: join by `run`\n```\n\n`{TRUTH}/` has what gives a label away and what no test rig tells: the damage, each entry and exit of a \
+         # the same rows: join by `run`\n```\n\nBeside measured data sets, in the Python package bearing-datasets, it is `{}` after `bearing-datasets build \
+         path/to/this/folder/bearing_datasets`.\n\n`{TRUTH}/` has what gives a label away and what no test rig tells: the damage, each entry and exit of a \
          rolling element, forces, slip, warnings, the whole scenario. **No model may be given it.** Nor is a model to be given `run`: classes take turns, so that \
          its remainder by the number of classes tells the class.\n",
-        signals.join(", ")
+        signals.join(", "),
+        identifier(&about.name)
     );
     if let Some(histories) = &about.histories {
         card += &life(histories);

@@ -14,10 +14,12 @@
 //! | `held_out/part-00000.parquet`, ... | labels and truth of the runs whose labels the plan holds out |
 //! | `dataset.json` | geometry, units, rate, licence, columns, checksums; written when all files are there |
 //! | `README.md`, `croissant.json` | the data set's card, as Hugging Face and other tools read it |
+//! | `bearing_datasets/` | what the Python package bearing-datasets builds its form of the data set with |
 //! | `work/` | which campaign it is, a checksum for each file, finished runs of unfinished files |
 
 mod about;
 mod baseline;
+mod bearing_datasets;
 mod campaign;
 mod card;
 mod columns;

@@ -5,10 +5,10 @@ use crate::dataset::about::{
     About, Class, ColumnOf, Facts, Files, Geometry, GeometryKey, Held, Histories, Rate, Runs, Sources, Split, Sum,
 };
 use crate::dataset::campaign::Campaign;
-use crate::dataset::card;
 use crate::dataset::columns::{DataColumn, Table, is_of_damage};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CHECKSUM, Folder, HELD_OUT, SECRET_PATH, TRUTH, file_name, make, put, written};
+use crate::dataset::{bearing_datasets, card};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell::made_by::{self, digest};
@@ -186,6 +186,7 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     about.runs = Runs::Made { total, complete: total.saturating_sub(failed), failed };
     about.files = Files::Made(files);
     about.card = Some(card::write(&folder.root, &about)?);
+    bearing_datasets::write(&folder.root, &about)?;
     put(&folder.sidecar(), &written(&signed(&about)))?;
     Ok(true)
 }
