@@ -337,26 +337,30 @@ class DataSet:
         run : int
             The number of the run, from 0.
         signal : str, optional
-            The column; by default what the sensor gives, ``sensor_out``, or its acceleration nearer to the load.
+            The column; by default what the sensor gives, ``sensor_out``, or its acceleration nearer to the load; of a machine the first.
         **options
-            As of `brinell.analyze`. Of a run with held-out labels, whose scenario lies apart, ``bearing`` and ``speed_rpm`` are needed.
+            As of `brinell.analyze`. Where labels are held out, and the scenario with them, and of a machine, which has several bearings, ``bearing`` is needed.
         """
         row = self[run]
-        if isinstance(row.get("scenario"), str):
-            scenario = Scenario._of(_brinell.Scenario.parse(row["scenario"]), quiet=True)
-            speed = scenario["operation.speed_rpm"]
-            options = {"bearing": scenario} | ({} if isinstance(speed, list) else {"speed_rpm": speed}) | options
-            x, y = scenario["operation.load_n"]
-        else:
-            x, y = 1.0, 0.0
+        if row["status"] != "complete":
+            raise ValueError(f"run {run} failed, and has no signal{': ' + row['reason'] if row['reason'] else ''}")
+        # An empty cell is None to polars and NaN to pandas.
+        load = row["load_n"] if hasattr(row["load_n"], "__len__") else None
+        if "bearing" not in options:
+            if load is None:
+                raise ValueError(f"bearing: the machine of run {run} has {', '.join(row['bearings'])}; say which one is near the sensor")
+            if isinstance(row.get("scenario"), str):
+                options = {"bearing": Scenario._of(_brinell.Scenario.parse(row["scenario"]), quiet=True)} | options
+        if "tacho" not in options and row["speed_rpm"] is not None and row["speed_rpm"] == row["speed_rpm"]:
+            options = {"speed_rpm": row["speed_rpm"]} | options
+        columns = [column["name"] for column in self._known().get("columns", []) if column["type"] == "list<float>"]
         if signal is None:
-            near = ["sensor_ay", "sensor_ax"] if abs(y) > abs(x) else ["sensor_ax", "sensor_ay"]
-            there = [name for name in ["sensor_out", *near] if row.get(name) is not None]
+            first = ["sensor_out", "sensor_ay", "sensor_ax"] if load is not None and abs(load[1]) > abs(load[0]) else ["sensor_out", "sensor_ax", "sensor_ay"]
+            there = [name for name in first if name in columns] if load is not None else columns
             if not there:
-                raise ValueError(f"signal: run {run} has neither sensor_out nor sensor_ax nor sensor_ay; name a column of signals")
+                raise ValueError(f"signal: the data set has neither sensor_out nor sensor_ax nor sensor_ay\n  allowed: {', '.join(columns)}")
             signal = there[0]
-        elif row.get(signal) is None:
-            _one_of("signal", signal, [name for name, value in row.items() if hasattr(value, "dtype")])
+        _one_of("signal", signal, columns)
         units = {column["name"]: column["unit"] for column in self._known().get("columns", [])}
         samples = row[signal][round(row["analysed_from_s"] * row["sample_rate_hz"]) :]
         return analyze(samples, **({"rate_hz": row["sample_rate_hz"], "unit": units.get(signal), "simulated": True} | options))

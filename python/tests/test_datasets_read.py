@@ -1,6 +1,7 @@
 """What is read of a data set, and what of it tells a label."""
 
 import hashlib
+import subprocess
 
 import numpy as np
 import pytest
@@ -166,3 +167,24 @@ def test_xval_a_run_of_a_data_set_is_analysed_as_its_simulation(plan, tmp_path):
         ).verdict
     with pytest.raises(ValueError, match='signal: there is no "sensor_az"'):
         data.analyze(whole[0]["run"], "sensor_az")
+
+
+def test_regress_what_a_run_lacks_is_said_by_analyze(tmp_path, command):
+    """Of a machine the bearing, of a failed run the signal."""
+    subprocess.run([command, "init", "base.toml", "--template", "motor"], cwd=tmp_path, check=True, capture_output=True)
+    plan = 'base = "base.toml"\nruns = 2\nsignals = ["housing1.*"]\n[vary]\nsimulation.duration_s = 0.7\n[[classes]]\nname = "healthy"\ndefects = []\n'
+    (tmp_path / "plan.toml").write_text(plan)
+    data = brinell.Plan(tmp_path / "plan.toml").run(tmp_path / "data")
+    with pytest.raises(ValueError, match="bearing: the machine of run 0 has 6205, 6203; say which one is near the sensor"):
+        data.analyze(0)
+    assert data.analyze(0, bearing="6205").verdict and data.analyze(1, "housing1.drive_end", bearing="6205").verdict
+    with pytest.raises(ValueError, match='signal: there is no "housing1.drive_ends", did you mean "housing1.drive_end"'):
+        data.analyze(0, "housing1.drive_ends", bearing="6205")
+    (tmp_path / "base.toml").write_text(brinell.template())
+    plan = 'base = "base.toml"\nruns = 2\nout_of_range = "fail"\nsignals = ["sensor_ax"]\n[vary]\nsimulation.duration_s = 0.05\nlubricant.viscosity_pa_s = { grid = [0.01, -1.0] }\n'
+    (tmp_path / "plan.toml").write_text(plan)
+    data = brinell.Plan(tmp_path / "plan.toml").run(tmp_path / "failed")
+    failed = [run for run in range(2) if data[run]["status"] == "failed"]
+    assert len(failed) == 1
+    with pytest.raises(ValueError, match=f"run {failed[0]} failed, and has no signal: .*out of range"):
+        data.analyze(failed[0])

@@ -25,6 +25,25 @@ fn words(html: &str) -> String {
 }
 
 #[test]
+fn regress_damage_that_was_seen_outranks_a_record_that_does_not_show_it() {
+    let folder = records();
+    let told = |more: &str| {
+        let more: Vec<&str> = more.split_whitespace().collect();
+        brinell(folder.path(), &call(&["good_2026-03-02.csv"], &more)).exits(0);
+        words(&fs::read_to_string(folder.path().join("r.html")).unwrap())
+    };
+    let unseen = told("-o r.html --overwrite");
+    assert!(unseen.contains("Go on with the usual interval") && !unseen.contains("Damage was seen"), "{unseen}");
+    let seen = told("-o r.html --damage-kind forced-fracture --overwrite");
+    for words in ["No damage found", "Not graded:", "Damage was seen: act on what was seen", "page 2 of 2"] {
+        assert!(seen.contains(words), "{words}: {seen}");
+    }
+    for words in ["Go on with the usual interval", "Inconspicuous", "Do not exchange the bearing"] {
+        assert!(!seen.contains(words), "{words}: {seen}");
+    }
+}
+
+#[test]
 fn regress_the_report_as_html_and_pdf_with_what_was_given() {
     let folder = records();
     let named = ["--title", "Pump check", "--point", "drive end", "--author", "A. Writer"];

@@ -77,6 +77,12 @@ pub(super) fn grade(of: &CustomerReport) -> (&'static str, String) {
         (false, Some(zone @ (Zone::C | Zone::D))) => {
             ("Not by the bearing,", format!("as far as the record shows: {}.", whole(zone)))
         }
+        (false, _) if of.heading.kind.is_some() => {
+            ("Not graded:", "damage was seen that this record does not show; how far it has gone the eye tells.".into())
+        }
+        (false, Some(zone)) if of.lead.verdict == Verdict::CannotTell => {
+            ("Not graded:", format!("it is open whether the bearing is damaged; {}.", whole(zone)))
+        }
         (false, Some(zone)) => ("Inconspicuous:", format!("{}, and no damage is shown.", whole(zone))),
         (false, None) => ("Not graded:", "no damage is shown, and the record gives no zone of ISO 20816-3.".into()),
     }
@@ -102,6 +108,14 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
         steps
             .push("Zone D: act at once by the plant's own rule for it; vibration of this zone may damage the machine.");
     }
+    // What somebody saw outranks what a record does not show.
+    let is_seen = of.heading.kind.is_some() && of.lead.verdict != Verdict::Damage;
+    if is_seen {
+        steps.extend([
+            "Damage was seen: act on what was seen, and not on this record, which does not show it.",
+            "Have the bearing looked at again and exchanged by what is found; keep it, as its tracks tell the cause.",
+        ]);
+    }
     match (of.lead.verdict, of.lead.clarity) {
         (Verdict::Damage, "weak") => steps.extend([
             "Do not exchange the bearing on this record alone.",
@@ -118,6 +132,9 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
             "Until then measure at shorter intervals, weekly or closer, and stop if level, noise or temperature rises fast.",
             "Keep the old bearing and have it looked at: its tracks tell kind and cause of the damage, without which the new one may fail likewise.",
         ]),
+        _ if is_seen => steps.push(
+            "Check place, direction and mounting of the sensor, the speed and the bearing's designation: seen damage should show, unless it is small or far from the sensor.",
+        ),
         (Verdict::CannotTell, _) => steps.extend([
             "Settle what is open: check the speed (best with a tachometer), the designation of the bearing, and other bearings, gears and couplings nearby.",
             "Measure again on the bearing's housing: sixty turns of the shaft or more at steady speed, sampled at 10 kHz or more.",
@@ -133,7 +150,7 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
             ]);
         }
     }
-    if high && of.lead.verdict != Verdict::Damage {
+    if high && of.lead.verdict != Verdict::Damage && !is_seen {
         steps.push(
             "Look for the cause of the machine's vibration elsewhere: unbalance, misalignment, looseness, resonance.",
         );
@@ -157,7 +174,7 @@ pub(super) fn kind(of: &CustomerReport) -> String {
 pub(super) const NOT_SAID: [&str; 4] = [
     "How long the bearing will last, and what caused the damage.",
     "Faults of other parts: the frequencies of this bearing alone were looked for. As a rule the stronger of two damaged parts is named.",
-    "Whether speed and bearing were right: if not, every line lies elsewhere. Most such errors are noticed, not all.",
+    "Whether speed, bearing, unit and sensitivity were right: if not, every line lies elsewhere, or every level and zone is wrong. Most such errors are noticed, not all.",
     "That a bearing without a finding is sound.",
 ];
 

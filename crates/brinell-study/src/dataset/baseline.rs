@@ -1,9 +1,11 @@
-//! What two simple classifiers tell of a data set's runs: how hard it is, for its card.
+//! What a simple classifier tells of a data set's runs: how hard it is, for its card.
 
 use crate::dataset::about::About;
 use crate::dataset::error::DatasetError;
-use crate::dataset::sheet::{Opened, SheetRun, run_of, words};
+use crate::dataset::sheet::{Opened, SheetRun, number, run_of, words};
 use crate::design::Part;
+use brinell::signal::{Band, Segments, Spectrum, envelope_spectrum};
+use brinell_io::Cell;
 use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 
@@ -22,14 +24,19 @@ struct Known {
     label: usize,
     /// For testing, as the plan has it.
     is_test: bool,
-    features: [Vec<f64>; 2],
+    features: [Vec<f64>; FAMILIES.len()],
 }
 
 /// The families of features, as the card names them.
-pub(crate) const FAMILIES: [&str; 2] =
-    ["level: log of RMS, kurtosis and speed", "envelope: lines at BPFO, BPFI and 2 BSF over the noise beside them"];
+pub(crate) const FAMILIES: [&str; 3] = [
+    "level: log of RMS, kurtosis and speed",
+    "envelope: lines at BPFO, BPFI and 2 BSF over the noise beside them",
+    "both",
+];
+/// The envelope is that of everything above so many times the highest of its frequencies: the broad band of `brinell analyze`.
+const ABOVE: f64 = 3.0;
 
-/// Scores of both families.
+/// Scores of the families.
 pub(crate) struct Baselines {
     /// The column.
     pub(crate) signal: String,
@@ -38,7 +45,7 @@ pub(crate) struct Baselines {
     /// Runs that have no features.
     pub(crate) without: usize,
     /// Of each family and each class: runs that were told rightly, and how many there are.
-    pub(crate) right: [Vec<[usize; 2]>; 2],
+    pub(crate) right: [Vec<[usize; 2]>; FAMILIES.len()],
 }
 
 /// Scores of the runs in a folder whose files are all there; `None` where classes or runs are too few to learn from, or
@@ -64,11 +71,11 @@ pub(crate) fn baselines(folder: &Path, about: &About) -> Result<Option<Baselines
                 if words(&row, "class").is_empty() || words(&row, "status") != "complete" {
                     return;
                 }
-                let frequencies =
-                    ["bpfo_hz", "bpfi_hz", "bsf_hz"].map(|name| crate::dataset::sheet::number(&row, name));
+                let frequencies = ["bpfo_hz", "bpfi_hz", "bsf_hz"].map(|name| number(&row, name));
                 let (label, run) = run_of(&row, &opened.signal);
                 let split = Part::ALL.into_iter().find(|part| part.word() == run.split);
-                match features(&run, frequencies) {
+                let signal = if let Cell::Signal(x) = &row[&*opened.signal] { x.as_slice() } else { &[] };
+                match features(signal, &run, frequencies) {
                     Some(_) if split == Some(Part::Validation) => {}
                     Some(features) => {
                         known.push(Known { run: run.run, label, is_test: split == Some(Part::Test), features });
@@ -91,7 +98,7 @@ pub(crate) fn baselines(folder: &Path, about: &About) -> Result<Option<Baselines
     if !(0..classes).all(enough) {
         return Ok(None);
     }
-    let right = [0, 1].map(|family| scores(&known, &fold, family, classes));
+    let right = [0, 1, 2].map(|family| scores(&known, &fold, family, classes));
     Ok(Some(Baselines { signal: opened.signal, by_split, without, right }))
 }
 
@@ -126,24 +133,30 @@ fn scores(known: &[Known], fold: &[Option<usize>], family: usize, classes: usize
     right
 }
 
-/// Features of both families; `None` where a run has not all of them.
-fn features(run: &SheetRun, frequencies: [Option<f64>; 3]) -> Option<[Vec<f64>; 2]> {
+/// Features of all families; `None` where a run has not all of them.
+fn features(signal: &[f32], run: &SheetRun, frequencies: [Option<f64>; 3]) -> Option<[Vec<f64>; FAMILIES.len()]> {
     let [bpfo, bpfi, bsf] = frequencies;
+    let frequencies = [bpfo?, bpfi?, 2.0 * bsf?].map(f64::abs);
     let level = vec![run.rms.ln(), run.kurtosis.ln(), run.speed_rpm?.abs().ln()];
-    let lines = [bpfo?, bpfi?, 2.0 * bsf?].map(|f| {
-        let harmonics = (1..=HARMONICS).map(|k| line(run, k as f64 * f.abs()));
+    let rate = 1.0 / run.dt_s;
+    let settled: Vec<f64> =
+        signal.iter().skip((run.analysed_from_s * rate).round() as usize).map(|x| f64::from(*x)).collect();
+    let band = Band::above(ABOVE * frequencies.into_iter().fold(0.0, f64::max));
+    let envelope = envelope_spectrum(&settled, rate, band, &Segments::of(settled.len())).ok()?.spectrum;
+    let lines = frequencies.map(|f| {
+        let harmonics = (1..=HARMONICS).map(|k| line(&envelope, k as f64 * f));
         harmonics.sum::<f64>() / HARMONICS as f64
     });
-    let both = [level, lines.to_vec()];
-    both.iter().flatten().all(|x| x.is_finite()).then_some(both)
+    let all = [level.clone(), lines.to_vec(), [level, lines.to_vec()].concat()];
+    all[2].iter().all(|x| x.is_finite()).then_some(all)
 }
 
 /// How far the envelope's line near `hz` is above the noise beside it, in nepers: cages slip, so it is looked for within 2 %
 /// and 3 Hz.
-fn line(run: &SheetRun, hz: f64) -> f64 {
+fn line(envelope: &Spectrum, hz: f64) -> f64 {
     let (mut top, mut beside) = (0.0_f64, Vec::new());
-    for (k, amplitude) in run.envelope.iter().enumerate().skip(1) {
-        let off = (k as f64 * run.df_hz - hz).abs();
+    for (k, amplitude) in envelope.amplitude.iter().enumerate().skip(1) {
+        let off = (k as f64 * envelope.frequency_step - hz).abs();
         if off < 0.02 * hz + 3.0 {
             top = top.max(*amplitude);
         } else if off < 0.2 * hz + 20.0 {
@@ -214,12 +227,13 @@ impl Baselines {
         };
         let without = match self.without {
             0 => String::new(),
+            1 => " Of one run a feature is missing; it is left out.".to_owned(),
             count => format!(" Of {count} runs a feature is missing; they are left out."),
         };
         let heads: String = classes.iter().map(|name| format!(" {name} |")).collect();
         let mut section = format!(
             "\n## Baselines\n\nLinear discriminant analysis of a few features of `{}`, from `analysed_from_s` on: how hard these runs are to tell apart. It says \
-             nothing of a measured machine. {how}{without}\n\n| features | right | 95 % |{heads}\n| --- | --- | --- |{}\n| none: guessing | {:.0} % | |{}\n",
+             nothing of a measured machine. The envelope is that of everything above {ABOVE} times the highest of its frequencies. {how}{without}\n\n| features | right | 95 % |{heads}\n| --- | --- | --- |{}\n| none: guessing | {:.0} % | |{}\n",
             self.signal,
             " --- |".repeat(classes.len()),
             100.0 / classes.len() as f64,
@@ -270,7 +284,7 @@ mod tests {
             run: k as i64,
             label: k % 3,
             is_test,
-            features: [vec![(k % 3) as f64 * 10.0 + (k % 7) as f64], vec![(k % 5) as f64]],
+            features: [vec![(k % 3) as f64 * 10.0 + (k % 7) as f64], vec![(k % 5) as f64], vec![0.0]],
         };
         let all: Vec<Known> = (0..60).map(|k| known(k, false)).collect();
         let fold = folds(&all, 3, false);

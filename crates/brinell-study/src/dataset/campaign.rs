@@ -309,7 +309,10 @@ impl Sources {
             return Err(self.plan.problem_of(
                 "signals",
                 pattern,
-                "no channel of the first runs has such a name; channels are those of `simulation.record`, such as \"sensor_ax\"",
+                &format!(
+                    "no channel of the first runs has such a name; channels are those of `simulation.record`, such as signals = [\"{}\"]",
+                    first.scenario.shown_channel()
+                ),
             ));
         }
         Ok(Campaign {

@@ -342,8 +342,9 @@ pub(crate) fn columns(draws: &Draws, signals: &[Column], is_machine: bool) -> Ve
         let kind = if parameter.numeric { Kind::Number } else { Kind::Words };
         let unit = brinell::document::unit_of_key(&parameter.key);
         let unit = if unit.is_empty() { "1" } else { unit };
-        // What only some classes draw, or what is drawn for damage, tells the class.
-        let tells = !parameter.common || is_of_damage(&parameter.key);
+        // What only some classes draw, or what is drawn for damage, tells the class; the noise tells how much of the record is
+        // the bearing's, which no rig does.
+        let tells = !parameter.common || is_of_damage(&parameter.key) || parameter.key.starts_with("sensor.noise");
         let table = if tells { Table::Truth } else { Table::Runs };
         let source = Source::Parameter(k, kind);
         let meaning = match (parameter.key.starts_with("history."), parameter.anew) {
