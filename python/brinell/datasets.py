@@ -353,17 +353,18 @@ class DataSet:
                 options = {"bearing": Scenario._of(_brinell.Scenario.parse(row["scenario"]), quiet=True)} | options
         if "tacho" not in options and row["speed_rpm"] is not None and row["speed_rpm"] == row["speed_rpm"]:
             options = {"speed_rpm": row["speed_rpm"]} | options
-        columns = [column["name"] for column in self._known().get("columns", []) if column["type"] == "list<float>"]
+        units = {column["name"]: column["unit"] for column in self._known().get("columns", []) if column["type"] == "list<float>"}
         if signal is None:
-            first = ["sensor_out", "sensor_ay", "sensor_ax"] if load is not None and abs(load[1]) > abs(load[0]) else ["sensor_out", "sensor_ax", "sensor_ay"]
-            there = [name for name in first if name in columns] if load is not None else columns
+            there = list(units)
+            if load is not None:
+                near = ["sensor_ay", "sensor_ax"] if abs(load[1]) > abs(load[0]) else ["sensor_ax", "sensor_ay"]
+                there = [name for name in ["sensor_out", *near] if name in units]
             if not there:
-                raise ValueError(f"signal: the data set has neither sensor_out nor sensor_ax nor sensor_ay\n  allowed: {', '.join(columns)}")
+                raise ValueError(f"signal: the data set has neither sensor_out nor sensor_ax nor sensor_ay\n  allowed: {', '.join(units)}")
             signal = there[0]
-        _one_of("signal", signal, columns)
-        units = {column["name"]: column["unit"] for column in self._known().get("columns", [])}
+        _one_of("signal", signal, list(units))
         samples = row[signal][round(row["analysed_from_s"] * row["sample_rate_hz"]) :]
-        return analyze(samples, **({"rate_hz": row["sample_rate_hz"], "unit": units.get(signal), "simulated": True} | options))
+        return analyze(samples, **({"rate_hz": row["sample_rate_hz"], "unit": units[signal], "simulated": True} | options))
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         """Runs as by number, one file in memory at a time; where runs are split, file by file, and so not in order."""

@@ -2,11 +2,13 @@
 
 use crate::dataset::about::About;
 use crate::dataset::error::DatasetError;
-use crate::dataset::sheet::{Opened, SheetRun, number, run_of, words};
+use crate::dataset::sheet::{Opened, number, rms_and_kurtosis, words};
 use crate::design::Part;
+use brinell::signal::estimate::NORMAL;
 use brinell::signal::{Band, Segments, Spectrum, envelope_spectrum};
 use brinell_io::Cell;
 use nalgebra::{DMatrix, DVector};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// Parts of the runs, where the plan makes none for testing: each is told by a classifier that learned from the others.
@@ -15,8 +17,8 @@ const FOLDS: usize = 5;
 const LEAST: usize = FOLDS;
 /// Harmonics of a frequency whose lines are looked at.
 const HARMONICS: usize = 3;
-/// Normal quantile of a two-sided 95 % interval.
-const Z95: f64 = 1.959_964;
+/// What is read of a run beside its signal; none of it is truth.
+const COLUMNS: &str = "run split status class label speed_rpm sample_rate_hz analysed_from_s bpfo_hz bpfi_hz bsf_hz";
 
 /// What is known of a run: its class, and its features by family.
 struct Known {
@@ -59,7 +61,7 @@ pub(crate) fn baselines(folder: &Path, about: &About) -> Result<Option<Baselines
         return Ok(None);
     }
     let opened = Opened::new(folder)?;
-    let columns: Vec<&str> = opened.columns().chain(["class", "status"]).collect();
+    let columns: Vec<&str> = COLUMNS.split(' ').chain([&*opened.signal]).collect();
     let (mut known, mut without) = (Vec::new(), 0);
     for path in &opened.parts {
         opened.each_row(
@@ -67,18 +69,18 @@ pub(crate) fn baselines(folder: &Path, about: &About) -> Result<Option<Baselines
             &columns,
             |_| true,
             |row| {
-                // Held out, or failed.
-                if words(&row, "class").is_empty() || words(&row, "status") != "complete" {
+                let (Cell::Whole(run), Cell::Whole(label)) = (&row["run"], &row["label"]) else {
+                    return; // held out
+                };
+                if words(&row, "status") != "complete" {
                     return;
                 }
-                let frequencies = ["bpfo_hz", "bpfi_hz", "bsf_hz"].map(|name| number(&row, name));
-                let (label, run) = run_of(&row, &opened.signal);
-                let split = Part::ALL.into_iter().find(|part| part.word() == run.split);
-                let signal = if let Cell::Signal(x) = &row[&*opened.signal] { x.as_slice() } else { &[] };
-                match features(signal, &run, frequencies) {
+                let (run, label) = (*run, *label as usize);
+                let split = Part::ALL.into_iter().find(|part| part.word() == words(&row, "split"));
+                match features(&row, &opened.signal) {
                     Some(_) if split == Some(Part::Validation) => {}
                     Some(features) => {
-                        known.push(Known { run: run.run, label, is_test: split == Some(Part::Test), features });
+                        known.push(Known { run, label, is_test: split == Some(Part::Test), features });
                     }
                     None => without += 1,
                 }
@@ -134,13 +136,15 @@ fn scores(known: &[Known], fold: &[Option<usize>], family: usize, classes: usize
 }
 
 /// Features of all families; `None` where a run has not all of them.
-fn features(signal: &[f32], run: &SheetRun, frequencies: [Option<f64>; 3]) -> Option<[Vec<f64>; FAMILIES.len()]> {
-    let [bpfo, bpfi, bsf] = frequencies;
-    let frequencies = [bpfo?, bpfi?, 2.0 * bsf?].map(f64::abs);
-    let level = vec![run.rms.ln(), run.kurtosis.ln(), run.speed_rpm?.abs().ln()];
-    let rate = 1.0 / run.dt_s;
-    let settled: Vec<f64> =
-        signal.iter().skip((run.analysed_from_s * rate).round() as usize).map(|x| f64::from(*x)).collect();
+fn features(row: &HashMap<&str, Cell>, signal: &str) -> Option<[Vec<f64>; FAMILIES.len()]> {
+    let of = |name: &str| number(row, name);
+    let frequencies = [of("bpfo_hz")?, of("bpfi_hz")?, 2.0 * of("bsf_hz")?].map(f64::abs);
+    let Cell::Signal(x) = &row[signal] else { return None };
+    let rate = of("sample_rate_hz")?;
+    let start = (of("analysed_from_s").unwrap_or(0.0) * rate).round() as usize;
+    let settled: Vec<f64> = x.iter().skip(start).map(|x| f64::from(*x)).collect();
+    let [rms, kurtosis] = rms_and_kurtosis(&settled);
+    let level = vec![rms.ln(), kurtosis.ln(), of("speed_rpm")?.abs().ln()];
     let band = Band::above(ABOVE * frequencies.into_iter().fold(0.0, f64::max));
     let envelope = envelope_spectrum(&settled, rate, band, &Segments::of(settled.len())).ok()?.spectrum;
     let lines = frequencies.map(|f| {
@@ -210,7 +214,7 @@ impl Discriminant {
 /// Share of `right` in `of`, with its 95 % interval (Wilson 1927): [low, share, high].
 fn share(right: usize, of: usize) -> [f64; 3] {
     let (n, p) = (of as f64, right as f64 / of as f64);
-    let z = Z95 * Z95 / n;
+    let z = NORMAL * NORMAL / n;
     let middle = (p + z / 2.0) / (1.0 + z);
     let half = (z * (p * (1.0 - p) + z / 4.0)).sqrt() / (1.0 + z);
     [middle - half, p, middle + half]

@@ -56,8 +56,8 @@ fn paths(about: &About) -> Vec<(String, Vec<&str>, Vec<&str>)> {
         if splits.last().is_none_or(|(last, ..)| *last != split) {
             splits.push((split, Vec::new(), Vec::new()));
         }
-        let name = |path: &str| path.rsplit('/').next().map(ToOwned::to_owned);
-        let beside = about.truth.iter().find(|truth| name(&truth.path) == name(&file.path));
+        let beside = file.path.strip_prefix("runs").map(|name| format!("{TRUTH}{name}"));
+        let beside = about.truth.iter().find(|truth| Some(&truth.path) == beside.as_ref());
         if let Some((_, runs, truth)) = splits.last_mut() {
             runs.push(&file.path);
             truth.extend(beside.map(|truth| &*truth.path));

@@ -182,7 +182,7 @@ impl Opened {
         let is_apart = |name: &str| self.about.columns.iter().any(|c| c.name == name && c.table == TRUTH);
         let (apart, with_runs): (Vec<&str>, Vec<&str>) = columns.iter().partition(|name| is_apart(name));
         let beside = self.folder.root.join(TRUTH).join(path.file_name().unwrap_or_default());
-        let truth = match beside.exists() {
+        let truth = match !apart.is_empty() && beside.exists() {
             true => read_records(&beside, &apart, &is_wanted)?,
             false => Vec::new(),
         };
@@ -311,6 +311,15 @@ pub(super) fn run_of(cells: &HashMap<&str, Cell>, signal: &str) -> (usize, Sheet
     (whole("label").max(0) as usize, run)
 }
 
+/// RMS of a signal less its mean, and its kurtosis.
+pub(super) fn rms_and_kurtosis(x: &[f64]) -> [f64; 2] {
+    let count = x.len() as f64;
+    let mean = x.iter().sum::<f64>() / count;
+    let square = x.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+    let fourth = x.iter().map(|x| (x - mean).powi(4)).sum::<f64>();
+    [(square / count).sqrt(), fourth * count / (square * square)]
+}
+
 impl SheetRun {
     /// What is shown of the signal; `highest` is the highest defect frequency, Hz.
     fn take(&mut self, signal: &[f32], highest: f64) {
@@ -323,11 +332,7 @@ impl SheetRun {
         self.stretch = x[from..].to_vec();
         let start = (self.analysed_from_s * rate).round() as usize;
         let settled = &x[start.min(x.len())..];
-        let mean = settled.iter().sum::<f64>() / settled.len() as f64;
-        let square = settled.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
-        self.rms = (square / settled.len() as f64).sqrt();
-        let fourth = settled.iter().map(|x| (x - mean).powi(4)).sum::<f64>();
-        self.kurtosis = fourth * settled.len() as f64 / (square * square);
+        [self.rms, self.kurtosis] = rms_and_kurtosis(settled);
         let band = envelope_band_above(highest, rate);
         self.band_hz = (band.low, band.high);
         if let Ok(found) = envelope_spectrum(settled, rate, band, &Segments::of(settled.len())) {
