@@ -2,7 +2,7 @@
 //! crate that called it would compile all of the transforms' code again, a third of a minute.
 
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::Fft;
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,6 +10,12 @@ use std::sync::Arc;
 /// The transform of `length` real samples to the positive frequencies.
 pub fn forward(length: usize) -> Arc<dyn RealToComplex<f64>> {
     RealFftPlanner::new().plan_fft_forward(length)
+}
+
+/// The transform of the positive frequencies to `length` real samples, `length` times as large as those before
+/// [`forward`].
+pub fn inverse(length: usize) -> Arc<dyn ComplexToReal<f64>> {
+    RealFftPlanner::new().plan_fft_inverse(length)
 }
 
 /// Bins 0 to N / 2 of the transform of `x`, which is lost; those that hold round-off alone are 0.

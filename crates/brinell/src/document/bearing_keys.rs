@@ -24,7 +24,7 @@ pub(super) fn steel_element_kg(b: &Bearing) -> f64 {
     }
 }
 
-pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &mut Bearing) {
+pub(super) fn bearing(k: &mut Keys, (model, laws): (ModelKind, Laws), b: &mut Bearing) {
     k.preset(key("preset", "catalogue bearing that fills the keys left out"), laws, &mut b.preset);
     k.key(
         key("element", "what rolls; the keys named after rollers are then a ball's"),
@@ -145,8 +145,8 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
 }
 
 /// A key of `tilting`, which balls do not do.
-pub(super) fn tilt_key<K: Keys>(
-    k: &mut K,
+pub(super) fn tilt_key(
+    k: &mut Keys,
     (model, element): (ModelKind, Element),
     spec: Spec,
     fallback: Fallback<f64>,
@@ -165,7 +165,7 @@ pub(super) fn tilt_key<K: Keys>(
 }
 
 /// Conformities of the grooves, which only balls have.
-fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
+fn grooves(k: &mut Keys, b: &mut Bearing) {
     let has_balls = b.has_balls();
     for (spec, value) in [
         (
@@ -210,7 +210,7 @@ fn ring_wall_mm(b: &Bearing) -> f64 {
 
 /// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is
 /// given.
-fn clearance<K: Keys>(k: &mut K, laws: Laws, b: &mut Bearing) {
+fn clearance(k: &mut Keys, laws: Laws, b: &mut Bearing) {
     k.optional(
         key("bore_diameter_mm", "bore, for clearance_class; left out, the preset's").above(0.0),
         &mut b.bore_diameter_mm,

@@ -14,7 +14,7 @@ const OILED_POCKET_N: f64 = 11.0;
 /// Stiffness of a pocket of steel on steel, N/m, as assumed for the paper's bearing.
 const STEEL_POCKET: f64 = 1e7;
 
-pub(super) fn cage<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage) {
+pub(super) fn cage(k: &mut Keys, (laws, b): (Laws, &Bearing), c: &mut Cage) {
     let d = b.roller_diameter_mm;
     k.key(
         key("inner_diameter_mm", "2 a").above(0.0),
@@ -85,7 +85,7 @@ pub(super) fn cage<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage
 }
 
 /// What pockets and lands hold with.
-fn walls<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage) {
+fn walls(k: &mut Keys, (laws, b): (Laws, &Bearing), c: &mut Cage) {
     let walls = match laws {
         Laws::Mechanics => stated(Walls::Oiled, "of the set \"mechanics\""),
         Laws::Li2023 => stated(Walls::Linear, PAPER),
@@ -145,7 +145,7 @@ const OILED: &str = "cage.walls is \"oiled\"";
 const LINEAR: &str = "cage.walls is \"linear\"";
 
 /// A key of linear walls; elsewhere its field holds what its default is.
-fn linear_key<K: Keys>(k: &mut K, linear: bool, spec: Spec, fallback: Fallback<f64>, value: &mut f64) {
+fn linear_key(k: &mut Keys, linear: bool, spec: Spec, fallback: Fallback<f64>, value: &mut f64) {
     if linear {
         return k.key_where(spec, (true, LINEAR), fallback, value);
     }

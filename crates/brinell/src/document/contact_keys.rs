@@ -14,7 +14,7 @@ const LINE_EXPONENT: f64 = 10.0 / 9.0;
 /// Exponent of a point contact (Hertz).
 const POINT_EXPONENT: f64 = 1.5;
 
-pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &Bearing), c: &mut Contact) {
+pub(super) fn contact(k: &mut Keys, (laws, model, b): (Laws, ModelKind, &Bearing), c: &mut Contact) {
     let of_li2023 = laws == Laws::Li2023 && b.element == Element::Roller;
     let law = match (model, &b.profile) {
         (ModelKind::Lumped, _) => stated(Law::Ecl, PAPER),
@@ -89,7 +89,7 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
 const HALF_SPACE: &str = "contact.law is \"half-space\"";
 
 /// Damping by a time or by a constant: what the file gives, or the set of laws has.
-fn damping<K: Keys>(k: &mut K, laws: Laws, c: &mut Contact) {
+fn damping(k: &mut Keys, laws: Laws, c: &mut Contact) {
     const TIME: &str = "damping_time_us";
     const CONSTANT: &str = "damping_ns_per_m";
     let [by_time, by_constant] = match (k.gives("contact", TIME), k.gives("contact", CONSTANT)) {
@@ -133,7 +133,7 @@ fn damping<K: Keys>(k: &mut K, laws: Laws, c: &mut Contact) {
 const STEEL_ACTS: &str = "bearing.element is \"ball\", or contact.law \"half-space\"";
 
 /// What Hertz's ellipse and the half-space need of the material; of healthy rollers Palmgren's constant has it in it.
-fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
+fn steel(k: &mut Keys, b: &Bearing, c: &mut Contact) {
     let wanted = (b.has_balls() || c.law == Law::HalfSpace, STEEL_ACTS);
     let mut modulus = c.youngs_modulus_gpa.unwrap_or(f64::NAN);
     k.key_where(

@@ -45,7 +45,7 @@ impl Shape {
     }
 }
 
-pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
+pub(super) fn defect(k: &mut Keys, load: [f64; 2], d: &mut Defect) {
     let mut word = SurfaceWord::from(d.on);
     let mut roller = match d.on {
         Surface::Roller(number) => number,
@@ -97,7 +97,7 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
     );
 }
 
-fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
+fn shape(k: &mut Keys, shape: &mut Shape) {
     const WIDTH: Spec = key("width_mm", "L_s, along the axis, at most the roller's length").from(0.0);
     match shape {
         Shape::Rectangle { length_mm, width_mm } => {
@@ -143,7 +143,7 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
 }
 
 /// One polygon as `points_mm`, several as `polygons_mm`.
-fn polygons<K: Keys>(k: &mut K, polygons: &mut Vec<Vec<[f64; 2]>>) {
+fn polygons(k: &mut Keys, polygons: &mut Vec<Vec<[f64; 2]>>) {
     let (mut one, mut several) = match &polygons[..] {
         [] => (None, None),
         [only] => (Some(only.clone()), None),
@@ -160,7 +160,7 @@ fn polygons<K: Keys>(k: &mut K, polygons: &mut Vec<Vec<[f64; 2]>>) {
 /// Columns or rows of a grid at the most.
 const MOST_NODES: f64 = 20_000.0;
 
-fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
+fn depth_map(k: &mut Keys, shape: &mut Shape) {
     let (mut file, mut g, mut scan) = match shape {
         Shape::DepthMap { grid } => (None, grid.clone(), ScanFile::default()),
         Shape::Scan(scan) => (Some(scan.file.clone()), DepthGrid::unset(), scan.clone()),

@@ -14,19 +14,19 @@ const FILED: &str = "there is a `file`";
 
 /// A key that every file of damage has: of a scan only where there is one (`filed`), of an image or a drawing always
 /// (`None`).
-fn shared<K: Keys, T: ValueType>(k: &mut K, filed: Option<bool>, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+fn shared<T: ValueType>(k: &mut Keys, filed: Option<bool>, spec: Spec, fallback: Fallback<T>, value: &mut T) {
     match filed {
         None => k.key(spec, fallback, value),
         Some(wanted) => k.key_where(spec, (wanted, FILED), fallback, value),
     }
 }
 
-fn center<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut bool) {
+fn center(k: &mut Keys, filed: Option<bool>, value: &mut bool) {
     let spec = key("center", "the damage's bounding box at the defect's centre; false: the middle of the picture");
     shared(k, filed, spec, stated(true, "centred"), value);
 }
 
-fn direction<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut RollingDirection) {
+fn direction(k: &mut Keys, filed: Option<bool>, value: &mut RollingDirection) {
     let doc = "where +s, counter-clockwise on the surface, points in the picture; rollers pass an outer raceway towards +s at \
                positive speed, an inner one towards -s";
     let spec = key("rolling_direction", doc);
@@ -34,12 +34,12 @@ fn direction<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut RollingDirecti
     shared(k, filed, spec, fallback, value);
 }
 
-fn speck<K: Keys>(k: &mut K, filed: Option<bool>, fallback: Fallback<f64>, value: &mut f64) {
+fn speck(k: &mut Keys, filed: Option<bool>, fallback: Fallback<f64>, value: &mut f64) {
     let spec = key("speck_mm2", "spots smaller than this are left out").from(0.0);
     shared(k, filed, spec, fallback, value);
 }
 
-pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
+pub(super) fn image(k: &mut Keys, i: &mut ImageFile) {
     k.key(FILE, Required, &mut i.file);
     let mut bar: Option<ScaleBar> = None;
     k.optional(SCALE_BAR, &mut bar);
@@ -80,7 +80,7 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     k.optional(key("at_px", at).from(0.0).to(65_535.0), &mut i.at_px);
 }
 
-pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {
+pub(super) fn svg(k: &mut Keys, d: &mut SvgFile) {
     k.key(FILE, Required, &mut d.file);
     let id = "id of a path, shape or group; left out: the whole drawing";
     k.optional(key("path_id", id), &mut d.path_id);
@@ -92,7 +92,7 @@ pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {
 }
 
 /// The keys of a scan beside its file and spacing.
-pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
+pub(super) fn scan(k: &mut Keys, wanted: bool, s: &mut ScanFile) {
     let filed = (wanted, FILED);
     k.key_where(key("unit", "what the numbers count"), filed, stated(ScanUnit::Um, "micrometres"), &mut s.unit);
     let mut nm_per_count = s.nm_per_count.unwrap_or(f64::NAN);

@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-use super::keys::{Case, Fallback, Keys, Variant};
+use super::field::Field;
 use super::sections;
 use super::spec::Spec;
-use super::value_type::ValueType;
+use super::walk::{Case, Fallback, Keys, Offers, Tables, Walk};
 use crate::scenario::{Laws, Scenario};
 
 /// The keys that a set of laws decides.
@@ -81,7 +81,7 @@ struct Differing {
 }
 
 impl Differing {
-    fn compare<T: ValueType>(&mut self, spec: &Spec, fallback: Fallback<T>, value: &T) {
+    fn compare(&mut self, spec: &Spec, fallback: Fallback<&dyn Field>, value: &dyn Field) {
         let key = [&self.path[..], &[spec.name]].concat().join(".");
         // In a machine housings are bodies of their own.
         let is_elsewhere = self.in_machine && key.starts_with("housing.");
@@ -104,28 +104,35 @@ impl Differing {
     }
 }
 
-impl Keys for Differing {
-    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+impl Walk for Differing {
+    fn at_key(&mut self, spec: Spec, fallback: Fallback<&dyn Field>, value: &mut dyn Field) -> bool {
         self.compare(&spec, fallback, value);
+        false
     }
 
-    fn optional<T: ValueType>(&mut self, _: Spec, _: &mut Option<T>) {}
-
-    fn only_where<T: ValueType>(&mut self, _: Spec, _: bool, _: &'static str, _: &mut T) {}
-
-    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, _): Case, fallback: Fallback<T>, value: &mut T) {
-        if wanted {
-            self.key(spec, fallback, value);
-        }
+    fn at_optional(&mut self, _: Spec, given: bool, _: &mut dyn Field) -> bool {
+        given
     }
 
-    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+    fn at_only_where(&mut self, _: Spec, _: bool, _: &'static str, _: &mut dyn Field) {}
+
+    fn at_key_where(
+        &mut self,
+        spec: Spec,
+        (wanted, _): Case,
+        fallback: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
+        wanted && self.at_key(spec, fallback, value)
+    }
+
+    fn at_section(&mut self, spec: Spec, keys: &mut dyn FnMut(&mut Keys)) {
         self.path.push(spec.name);
         keys(self);
         self.path.pop();
     }
 
-    fn tables<T>(&mut self, _: Spec, _: &mut Vec<T>, _: fn() -> T, _: impl FnMut(&mut Self, &mut T)) {}
+    fn at_tables(&mut self, _: Spec, _: &mut dyn Tables) {}
 
-    fn one_of<T: 'static>(&mut self, _: Spec, _: &'static [Variant<T>], _: &mut T, _: impl FnMut(&mut Self, &mut T)) {}
+    fn at_one_of(&mut self, _: Spec, _: &mut dyn Offers) {}
 }

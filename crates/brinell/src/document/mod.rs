@@ -1,6 +1,6 @@
 //! The scenario file as a document: one TOML file is the whole truth of a run.
 //!
-//! `sections` lists every key once, in the vocabulary of `keys`; `reader`, `writer` and `schema` are walks over that list. `checks` holds
+//! `sections` lists every key once, in the vocabulary of `keys`; `reader`, `writer` and `schema` are walks (`walk`) over that list. `checks` holds
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
 mod alone;
@@ -14,6 +14,7 @@ mod diagnostics;
 mod differences;
 mod enum_strings;
 mod example;
+mod field;
 mod in_unit;
 mod keys;
 mod known_keys;
@@ -40,6 +41,7 @@ mod table_value;
 mod toml_text;
 mod tree;
 mod value_type;
+mod walk;
 mod waviness_value;
 mod writer;
 

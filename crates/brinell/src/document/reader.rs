@@ -5,7 +5,7 @@ mod walk;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::keys::Fallback;
+use super::field::{Field, Kind};
 use super::known_keys::known_keys;
 use super::problem::{Problem, Severity};
 use super::problems::Problems;
@@ -13,7 +13,8 @@ use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
 use super::spec::{Spec, unit_of_key, without_unit};
-use super::value_type::{Misfit, ValueType, Words};
+use super::value_type::Misfit;
+use super::walk::Fallback;
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
 use crate::did_you_mean::{boundary_dimension, did_you_mean, left_out};
@@ -178,27 +179,24 @@ impl<'a> Reader<'a> {
         self.provenance.push(Provenance { key: path.to_string(), value, unit: spec.unit, origin, assumed, plausible });
     }
 
-    /// Reads a key that the file gives.
-    fn read<T: ValueType>(&mut self, path: &str, spec: &Spec, node: &Node) -> Option<T> {
-        match T::read(node, spec) {
-            Ok(value) => {
-                let again = |node: &Node| T::read(node, spec).ok().map(|was| was.write());
-                self.given(path, spec, node, value.write(), &again);
-                Some(value)
-            }
+    /// Reads a key that the file gives; what does not fit is reported.
+    fn read(&mut self, path: &str, spec: &Spec, node: &Node, value: &mut dyn Field) {
+        match value.read(node, spec) {
+            Ok(()) => self.given(path, spec, node, value),
             Err(misfit) => {
                 self.misfit(path.to_string(), spec, node, misfit);
-                None
+                value.unset();
             }
         }
     }
 
-    /// Records a value that the file gives; `again` reads what was recorded of the key as it reads the key.
-    fn given(&mut self, path: &str, spec: &Spec, node: &Node, value: String, again: &dyn Fn(&Node) -> Option<String>) {
+    /// Records a value that the file gives.
+    fn given(&mut self, path: &str, spec: &Spec, node: &Node, value: &dyn Field) {
+        let written = value.write();
         let recorded = || {
             let entry = self.recorded.get(path)?;
-            let was = again(&override_value(&entry.value).ok()?)?;
-            (was == value).then(|| entry.reason.clone())
+            let was = value.as_written(&override_value(&entry.value).ok()?, spec).ok()?;
+            (was == written).then(|| entry.reason.clone())
         };
         let (origin, assumed) = match node.span {
             None => (Origin::Override, false),
@@ -207,22 +205,23 @@ impl<'a> Reader<'a> {
                 None => (Origin::File, false),
             },
         };
-        self.record(path, spec, value, origin, assumed);
+        self.record(path, spec, written, origin, assumed);
     }
 
-    /// Reads a key from the catalogue bearing.
-    fn catalogued<T: ValueType>(&mut self, path: &str, spec: &Spec) -> Option<T> {
-        let datum = self.datum(path)?;
-        match T::read(&Node::of_catalogue(&datum.value), spec) {
-            Ok(value) => {
-                self.record_datum(path, spec, value.write(), datum);
-                Some(value)
-            }
+    /// Reads a key from the catalogue bearing, where that states it.
+    fn catalogued(&mut self, path: &str, spec: &Spec, value: &mut dyn Field) -> bool {
+        let Some(datum) = self.datum(path) else {
+            return false;
+        };
+        let read = value.read(&Node::of_catalogue(&datum.value), spec);
+        match &read {
+            Ok(()) => self.record_datum(path, spec, value.write(), datum),
             Err(misfit) => {
-                self.misfit_of_catalogue(path, misfit);
-                None
+                let message = format!("the catalogue's value does not fit: {}", misfit.message);
+                self.problems.add(Problem::error(path, message), None);
             }
         }
+        read.is_ok()
     }
 
     fn datum(&self, path: &str) -> Option<&'static catalogue::Value> {
@@ -235,11 +234,6 @@ impl<'a> Reader<'a> {
     fn record_datum(&mut self, path: &str, spec: &Spec, value: String, datum: &catalogue::Value) {
         let origin = Origin::Preset { source: datum.source.clone(), estimated: datum.estimated };
         self.record(path, spec, value, origin, datum.estimated);
-    }
-
-    fn misfit_of_catalogue(&mut self, path: &str, misfit: Misfit) {
-        let message = format!("the catalogue's value does not fit: {}", misfit.message);
-        self.problems.add(Problem::error(path, message), None);
     }
 
     /// Keeps what was assumed of the file that the geometry of a shape came of. Geometry that an override gives came of
@@ -265,24 +259,22 @@ impl<'a> Reader<'a> {
         self.provenance.extend(kept.collect::<Vec<_>>());
     }
 
-    fn fall_back<T: ValueType>(&mut self, path: String, spec: &Spec, fallback: Fallback<T>) -> Option<T> {
-        let mut kept = None;
-        let seen = fallback.map(|value| {
-            let seen = Seen { written: value.write(), fits: value.fits(spec), defined: value.is_defined() };
-            kept = Some(value);
-            seen
-        });
-        let stands = self.stands_in(path, spec, (T::expected, T::range), seen);
-        kept.filter(|_| stands)
+    /// Whether the fallback's value stands in for the key's, recorded then; otherwise what is wrong is reported, and the
+    /// value unset.
+    fn fall_back(&mut self, path: String, spec: &Spec, fallback: Fallback<&dyn Field>, value: &mut dyn Field) -> bool {
+        let stands = self.stands_in(path, spec, value.kind(), fallback);
+        if !stands {
+            value.unset();
+        }
+        stands
     }
 
-    /// Whether the value stands in for the key, recorded then; what is wrong is reported otherwise.
     fn stands_in(
         &mut self,
         path: String,
         spec: &Spec,
-        (expected, range): (Words, Words),
-        fallback: Fallback<Seen>,
+        Kind { expected, range, .. }: Kind,
+        fallback: Fallback<&dyn Field>,
     ) -> bool {
         let (value, origin, assumed) = match fallback {
             Fallback::Required => {
@@ -299,11 +291,11 @@ impl<'a> Reader<'a> {
                 self.missing(path, spec.unit, expected(spec), &format!(" ({case})"));
                 return false;
             }
-            Fallback::Derived { value, how } if !value.fits => {
+            Fallback::Derived { value, how } if !value.fits(spec) => {
                 // Otherwise what it derives from is at fault, and reported already.
-                if value.defined || self.problems.is_empty() {
+                if value.is_defined() || self.problems.is_empty() {
                     let message = format!("cannot be derived ({how}): give it");
-                    let problem = Problem::error(path, message).value(value.written);
+                    let problem = Problem::error(path, message).value(value.write());
                     let problem = problem.allowed(range(spec)).unit(spec.unit);
                     self.problems.add(problem, None);
                 }
@@ -311,20 +303,13 @@ impl<'a> Reader<'a> {
             }
             Fallback::Derived { value, how } => (value, Origin::Derived(how), true),
             // What cannot be used comes of a key that is at fault itself, and reported.
-            Fallback::Instead { value, .. } if !value.fits => return false,
+            Fallback::Instead { value, .. } if !value.fits(spec) => return false,
             Fallback::Instead { value, how, assumed } => (value, Origin::Derived(how), assumed),
             Fallback::Fixed { value, why, assumed } => (value, Origin::Default(why), assumed),
         };
-        self.record(&path, spec, value.written, origin, assumed);
+        self.record(&path, spec, value.write(), origin, assumed);
         true
     }
-}
-
-/// What there is to say of a default, of whatever kind: so that what says it is compiled once and not for each kind.
-struct Seen {
-    written: String,
-    fits: bool,
-    defined: bool,
 }
 
 /// A key that a table has and should not, with the one that was meant where that can be guessed.

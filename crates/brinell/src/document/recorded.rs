@@ -33,7 +33,7 @@ pub(crate) struct Assumed {
 }
 
 /// Names the section's key; nothing is written where nothing is assumed.
-pub(crate) fn provenance<K: Keys>(k: &mut K, assumed: &mut Option<Vec<Assumed>>) {
+pub(crate) fn provenance(k: &mut Keys, assumed: &mut Option<Vec<Assumed>>) {
     let doc = "where values come from, as brinell writes it: not to be written by hand";
     k.section(key(SECTION, doc), |k| {
         let doc = "values that neither the author nor a cited source states; a value that differs from the one here is its author's";

@@ -2,9 +2,9 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::keys::{Case, Fallback, Keys, Variant};
+use super::field::Field;
 use super::spec::Spec;
-use super::value_type::ValueType;
+use super::walk::{Case, Fallback, Keys, Offers, Tables, Walk};
 use crate::scenario::Laws;
 
 /// Keys of a table, as far as the walk has come.
@@ -89,7 +89,7 @@ impl Schema {
         }
     }
 
-    fn nested(&mut self, keys: impl FnOnce(&mut Self)) -> Object {
+    fn nested(&mut self, keys: &mut dyn FnMut(&mut Self)) -> Object {
         self.objects.push(Object::default());
         keys(self);
         self.objects.pop().unwrap_or_default()
@@ -103,29 +103,37 @@ fn describe(spec: &Spec) -> String {
     }
 }
 
-impl Keys for Schema {
-    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, _: &mut T) {
+impl Walk for Schema {
+    fn at_key(&mut self, spec: Spec, fallback: Fallback<&dyn Field>, value: &mut dyn Field) -> bool {
         // What is written as TOML here is also JSON: numbers, plain strings and lists of them.
         let written = match &fallback {
             Fallback::Fixed { value, .. } => value.write(),
             _ => String::new(),
         };
-        self.describe(&spec, T::schema(&spec), fallback.map(|_| written.as_str()));
+        self.describe(&spec, (value.kind().schema)(&spec), fallback.map(|_| written.as_str()));
+        false
     }
 
-    fn optional<T: ValueType>(&mut self, spec: Spec, _: &mut Option<T>) {
-        self.put(&spec, T::schema(&spec), describe(&spec));
+    fn at_optional(&mut self, spec: Spec, given: bool, value: &mut dyn Field) -> bool {
+        self.put(&spec, (value.kind().schema)(&spec), describe(&spec));
+        given
     }
 
-    fn only_where<T: ValueType>(&mut self, spec: Spec, _: bool, case: &'static str, _: &mut T) {
+    fn at_only_where(&mut self, spec: Spec, _: bool, case: &'static str, value: &mut dyn Field) {
         let doc = format!("{}; required where {case}, and only there", describe(&spec));
-        self.put(&spec, T::schema(&spec), doc);
+        self.put(&spec, (value.kind().schema)(&spec), doc);
     }
 
-    fn key_where<T: ValueType>(&mut self, spec: Spec, (_, case): Case, fallback: Fallback<T>, value: &mut T) {
+    fn at_key_where(
+        &mut self,
+        spec: Spec,
+        (_, case): Case,
+        fallback: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
         let required = matches!(fallback, Fallback::Required);
         let catalogued = matches!(fallback, Fallback::Catalogued);
-        self.key(spec, fallback, value);
+        self.at_key(spec, fallback, value);
         let object = self.object();
         if required {
             object.required.pop();
@@ -135,20 +143,27 @@ impl Keys for Schema {
         }
         let word = if required { "required where" } else { "where" };
         self.say_more(spec.name, &format!("; {word} {case}, and only there"));
+        false
     }
 
-    fn key_acting_where<T: ValueType>(&mut self, spec: Spec, (_, case): Case, fallback: Fallback<T>, value: &mut T) {
-        self.key(spec, fallback, value);
+    fn at_key_acting_where(
+        &mut self,
+        spec: Spec,
+        (_, case): Case,
+        fallback: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
+        self.at_key(spec, fallback, value);
         self.say_more(spec.name, &format!("; acts only where {case}"));
+        false
     }
 
-    fn preset(&mut self, spec: Spec, _: Laws, value: &mut Option<String>) {
+    fn after_preset(&mut self, spec: Spec, _: Laws, _: &mut Option<String>) {
         self.object().preset = Some(spec.name);
-        self.optional(spec, value);
     }
 
-    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
-        let object = self.nested(|schema| keys(schema));
+    fn at_section(&mut self, spec: Spec, keys: &mut dyn FnMut(&mut Keys)) {
+        let object = self.nested(&mut |schema| keys(schema));
         if object.needs_anything() {
             self.object().required.push(spec.name);
         }
@@ -156,24 +171,18 @@ impl Keys for Schema {
         self.object().properties.insert(spec.name.into(), schema);
     }
 
-    fn tables<T>(&mut self, spec: Spec, _: &mut Vec<T>, blank: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
-        let object = self.nested(|schema| keys(schema, &mut blank()));
+    fn at_tables(&mut self, spec: Spec, items: &mut dyn Tables) {
+        let object = self.nested(&mut |schema| items.walk_blank(schema));
         let schema = json!({ "type": "array", "items": object.schema(spec.doc) });
         self.put(&spec, schema, spec.doc.to_string());
     }
 
-    fn one_of<T: 'static>(
-        &mut self,
-        spec: Spec,
-        variants: &'static [Variant<T>],
-        _: &mut T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
-        let shapes = self.nested(|schema| {
-            for variant in variants {
-                let inner = schema.nested(|schema| keys(schema, &mut (variant.blank)()));
-                let inner = inner.schema(variant.doc);
-                schema.object().properties.insert(variant.name.into(), inner);
+    fn at_one_of(&mut self, spec: Spec, value: &mut dyn Offers) {
+        let shapes = self.nested(&mut |schema| {
+            for (i, (name, doc)) in value.all().into_iter().enumerate() {
+                let inner = schema.nested(&mut |schema| value.walk_blank(i, schema));
+                let inner = inner.schema(doc);
+                schema.object().properties.insert(name.into(), inner);
             }
         });
         let mut schema = shapes.schema(spec.doc);

@@ -26,7 +26,7 @@ fn left_open(b: &Bearing, of_papers: &'static str, of_others: &'static str) -> &
     if b.preset.as_deref() == Some(PAPERS_BEARING) { of_papers } else { of_others }
 }
 
-pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
+pub(crate) fn scenario(k: &mut Keys, s: &mut Scenario) {
     let name = key("name", "name of the run, free text");
     k.key(name, stated("unnamed".into(), "no name given"), &mut s.name);
     // Which keys act, and what others default to, depends on the equations.
@@ -67,7 +67,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     });
 }
 
-fn friction<K: Keys>(k: &mut K, (laws, geometry, b): (Laws, GeometryLaw, &Bearing), f: &mut Friction) {
+fn friction(k: &mut Keys, (laws, geometry, b): (Laws, GeometryLaw, &Bearing), f: &mut Friction) {
     k.key(
         key("raceway_coefficient", "mu").plausible(0.005, 0.1).from(0.0),
         assumed(0.02, PAPER),
@@ -102,7 +102,7 @@ fn friction<K: Keys>(k: &mut K, (laws, geometry, b): (Laws, GeometryLaw, &Bearin
     );
 }
 
-fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
+fn lubricant(k: &mut Keys, b: &Bearing, l: &mut Lubricant) {
     k.key(
         key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film")
             .plausible(0.003, 0.1)
@@ -128,7 +128,7 @@ fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
     );
 }
 
-fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Operation) {
+fn operation(k: &mut Keys, (model, b): (ModelKind, &Bearing), o: &mut Operation) {
     k.key(
         key(
             "speed_rpm",
@@ -192,8 +192,8 @@ fn least_of_load(o: &Operation, mass: f64) -> Option<f64> {
 }
 
 /// `masses` are those of the inner ring and of the outer one with its housing, kg.
-fn support<K: Keys>(
-    k: &mut K,
+fn support(
+    k: &mut Keys,
     (laws, model, b, o): (Laws, ModelKind, &Bearing, &Operation),
     masses: [f64; 2],
     s: &mut Support,
@@ -285,7 +285,7 @@ fn support<K: Keys>(
     );
 }
 
-fn housing<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), h: &mut Housing) {
+fn housing(k: &mut Keys, (laws, b): (Laws, &Bearing), h: &mut Housing) {
     let mass = match laws {
         Laws::Mechanics => derived(20.0 * b.outer_ring_mass_kg, "20 times the outer ring's, a small plummer block"),
         Laws::Li2023 => stated(0.0, PAPER),
@@ -312,7 +312,7 @@ fn duration(laws: Laws, (b, o): (&Bearing, &Operation)) -> Fallback<f64> {
     }
 }
 
-fn simulation<K: Keys>(k: &mut K, (b, o, pushes): (&Bearing, &Operation, bool), s: &mut Simulation) {
+fn simulation(k: &mut Keys, (b, o, pushes): (&Bearing, &Operation, bool), s: &mut Simulation) {
     let laws = match s.model {
         ModelKind::Lumped => "the lumped model is the paper's",
         ModelKind::Full | ModelKind::Tilting => "the usual set",

@@ -7,7 +7,7 @@ use crate::scenario::{NoiseColour, PathMode, Sensor, Unset};
 /// Largest share of critical damping; a mode beyond is no resonance, and its equations here need one below 1.
 const MOST_DAMPED: f64 = 0.95;
 
-pub(super) fn sensor<K: Keys>(k: &mut K, s: &mut Sensor) {
+pub(super) fn sensor(k: &mut Keys, s: &mut Sensor) {
     k.optional(
         key("direction_deg", "an axis of its own, counter-clockwise from +x: adds the channel sensor_out"),
         &mut s.direction_deg,
@@ -50,7 +50,7 @@ pub(super) fn sensor<K: Keys>(k: &mut K, s: &mut Sensor) {
     }
 }
 
-fn noise<K: Keys>(k: &mut K, s: &mut Sensor) {
+fn noise(k: &mut Keys, s: &mut Sensor) {
     k.optional(key("noise_rms_m_per_s2", "standard deviation of the noise").from(0.0), &mut s.noise_rms_m_per_s2);
     k.optional(
         key("noise_snr_db", "instead: a signal of the reference RMS over the noise").from(-200.0).to(400.0),
@@ -79,7 +79,7 @@ fn noise<K: Keys>(k: &mut K, s: &mut Sensor) {
     k.key_where(key("noise_seed", "which noise"), (noisy, NOISY), stated(1, "the first"), &mut s.noise_seed);
 }
 
-fn path_mode<K: Keys>(k: &mut K, m: &mut PathMode) {
+fn path_mode(k: &mut Keys, m: &mut PathMode) {
     use super::keys::Fallback::Required;
     k.key(key("frequency_hz", "undamped natural frequency").above(0.0), Required, &mut m.frequency_hz);
     k.key(

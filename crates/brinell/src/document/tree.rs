@@ -1,9 +1,9 @@
 //! The walk that makes a tree of values of a scenario, as a file with every key would give it.
 
-use super::keys::{Case, Fallback, Keys, Variant, variant_of};
+use super::field::Field;
 use super::source::{Entry, Node, Table, Value};
 use super::spec::Spec;
-use super::value_type::ValueType;
+use super::walk::{Case, Fallback, Keys, Offers, Tables, Walk};
 
 /// A key that has no meaning here, and what its field holds.
 pub(crate) struct LeftOut {
@@ -36,18 +36,20 @@ impl Tree {
     }
 }
 
-impl Keys for Tree {
-    fn key<T: ValueType>(&mut self, spec: Spec, _: Fallback<T>, value: &mut T) {
+impl Walk for Tree {
+    fn at_key(&mut self, spec: Spec, _: Fallback<&dyn Field>, value: &mut dyn Field) -> bool {
         self.add(spec.name, value.node());
+        false
     }
 
-    fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
-        if let Some(value) = value {
+    fn at_optional(&mut self, spec: Spec, given: bool, value: &mut dyn Field) -> bool {
+        if given {
             self.add(spec.name, value.node());
         }
+        given
     }
 
-    fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
+    fn at_only_where(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut dyn Field) {
         if wanted {
             return self.add(spec.name, value.node());
         }
@@ -55,40 +57,49 @@ impl Keys for Tree {
         self.left_out.push(LeftOut { key, case, value: value.write() });
     }
 
-    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, _: Fallback<T>, value: &mut T) {
-        self.only_where(spec, wanted, case, value);
+    fn at_key_where(
+        &mut self,
+        spec: Spec,
+        (wanted, case): Case,
+        _: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
+        self.at_only_where(spec, wanted, case, value);
+        false
     }
 
-    fn key_acting_where<T: ValueType>(&mut self, spec: Spec, (wanted, _): Case, _: Fallback<T>, value: &mut T) {
+    fn at_key_acting_where(
+        &mut self,
+        spec: Spec,
+        (wanted, _): Case,
+        _: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
         if wanted {
             self.add(spec.name, value.node());
         }
+        false
     }
 
-    fn section(&mut self, spec: Spec, keys: impl FnMut(&mut Self)) {
-        let section = self.below(&[spec.name], keys);
+    fn at_section(&mut self, spec: Spec, keys: &mut dyn FnMut(&mut Keys)) {
+        let section = self.below(&[spec.name], |tree| keys(tree));
         if !matches!(&section.value, Value::Table(table) if table.is_empty()) {
             self.add(spec.name, section);
         }
     }
 
-    fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, _: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
-        let item = |(k, item): (usize, &mut T)| self.below(&[spec.name, &k.to_string()], |tree| keys(tree, item));
-        let all: Vec<Node> = items.iter_mut().enumerate().map(item).collect();
+    fn at_tables(&mut self, spec: Spec, items: &mut dyn Tables) {
+        let count = items.count();
+        let item = |k: usize| self.below(&[spec.name, &k.to_string()], |tree| items.walk(k, tree));
+        let all: Vec<Node> = (0..count).map(item).collect();
         if !all.is_empty() {
             self.add(spec.name, Node::unplaced(Value::Array(all)));
         }
     }
 
-    fn one_of<T: 'static>(
-        &mut self,
-        spec: Spec,
-        variants: &'static [Variant<T>],
-        value: &mut T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
-        let chosen = variant_of(variants, value).name;
-        let inner = self.below(&[spec.name, chosen], |tree| keys(tree, value));
+    fn at_one_of(&mut self, spec: Spec, value: &mut dyn Offers) {
+        let (chosen, _) = value.all()[value.chosen()];
+        let inner = self.below(&[spec.name, chosen], |tree| value.walk(tree));
         self.add(spec.name, Node::record([(chosen, inner)]));
     }
 }

@@ -79,10 +79,6 @@ pub trait ValueType: Sized + Clone + Unset {
     }
 }
 
-/// What a kind of value says of a key, such as [`ValueType::range`]: as a value, so that what uses it is compiled once
-/// and not for each kind.
-pub(super) type Words = fn(&Spec) -> String;
-
 pub(super) fn wrong_type<T: ValueType>(node: &Node, spec: &Spec) -> Misfit {
     expected_another(T::expected(spec), node, T::range(spec))
 }
@@ -367,36 +363,62 @@ impl<const N: usize> ValueType for [f64; N] {
     }
 }
 
-fn word_list<T: Choice>() -> String {
-    let words: Vec<String> = T::WORDS.iter().map(|(word, ..)| quote(word)).collect();
+/// A word and what it means.
+type Word = (&'static str, &'static str);
+
+/// The words of a closed choice, without its type, so that what follows is compiled once.
+fn words_of<T: Choice>() -> Vec<Word> {
+    T::WORDS.iter().map(|(word, _, meaning)| (*word, *meaning)).collect()
+}
+
+fn word_list(words: &[Word]) -> String {
+    let words: Vec<String> = words.iter().map(|(word, _)| quote(word)).collect();
     words.join(", ")
+}
+
+fn one_of_words(words: &[Word]) -> String {
+    match words {
+        [(word, _)] => quote(word),
+        _ => format!("one of {}", word_list(words)),
+    }
+}
+
+/// Number of the word that a node says.
+fn word_at(node: &Node, words: &[Word]) -> Result<usize, Misfit> {
+    let Value::Text(text) = &node.value else {
+        return Err(expected_another(one_of_words(words), node, word_list(words)));
+    };
+    words.iter().position(|(word, _)| word == text).ok_or_else(|| {
+        let known = words.iter().map(|(word, _)| *word);
+        let other = other_word(text).filter(|other| known.clone().any(|word| word == *other));
+        let near = other.or_else(|| did_you_mean(text, known));
+        let hint = match (near, left_out(text)) {
+            (Some(word), _) => format!("; did you mean {}?", quote(word)),
+            (None, Some(why)) => format!("; {why}"),
+            (None, None) => String::new(),
+        };
+        Misfit::new(format!("unknown word{hint}"), word_list(words))
+    })
+}
+
+fn schema_of_words(words: &[Word]) -> Json {
+    let words: Vec<Json> =
+        words.iter().map(|(word, meaning)| json!({ "const": word, "description": meaning })).collect();
+    json!({ "type": "string", "oneOf": words })
+}
+
+fn words_explained(words: &[Word]) -> String {
+    let words: Vec<String> = words.iter().map(|(word, meaning)| format!("{} ({meaning})", quote(word))).collect();
+    words.join(" | ")
 }
 
 impl<T: Choice> ValueType for T {
     fn expected(_: &Spec) -> String {
-        match T::WORDS {
-            [(word, ..)] => quote(word),
-            _ => format!("one of {}", word_list::<T>()),
-        }
+        one_of_words(&words_of::<T>())
     }
 
-    fn read(node: &Node, spec: &Spec) -> Result<T, Misfit> {
-        let Value::Text(text) = &node.value else {
-            let misfit = wrong_type::<T>(node, spec);
-            return Err(Misfit::new(misfit.message, word_list::<T>()));
-        };
-        let known = T::WORDS.iter().find(|(word, ..)| word == text);
-        known.map(|(_, value, _)| *value).ok_or_else(|| {
-            let words = T::WORDS.iter().map(|(word, ..)| *word);
-            let other = other_word(text).filter(|other| words.clone().any(|word| word == *other));
-            let near = other.or_else(|| did_you_mean(text, words));
-            let hint = match (near, left_out(text)) {
-                (Some(word), _) => format!("; did you mean {}?", quote(word)),
-                (None, Some(why)) => format!("; {why}"),
-                (None, None) => String::new(),
-            };
-            Misfit::new(format!("unknown word{hint}"), word_list::<T>())
-        })
+    fn read(node: &Node, _: &Spec) -> Result<T, Misfit> {
+        Ok(T::WORDS[word_at(node, &words_of::<T>())?].1)
     }
 
     fn node(&self) -> Node {
@@ -404,14 +426,10 @@ impl<T: Choice> ValueType for T {
     }
 
     fn schema(_: &Spec) -> Json {
-        let words: Vec<Json> =
-            T::WORDS.iter().map(|(word, _, meaning)| json!({ "const": word, "description": meaning })).collect();
-        json!({ "type": "string", "oneOf": words })
+        schema_of_words(&words_of::<T>())
     }
 
     fn range(_: &Spec) -> String {
-        let words: Vec<String> =
-            T::WORDS.iter().map(|(word, _, meaning)| format!("{} ({meaning})", quote(word))).collect();
-        words.join(" | ")
+        words_explained(&words_of::<T>())
     }
 }

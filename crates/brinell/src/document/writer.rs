@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::keys::{Case, Fallback, Keys, Variant, variant_of};
+use super::field::{Field, Words};
 use super::machine::tables::{OF_ALL, OF_THE_SHAFT};
 use super::provenance::{Origin, Provenance};
 use super::spec::Spec;
-use super::value_type::{ValueType, Words};
+use super::walk::{Case, Fallback, Keys, Offers, Tables, Walk};
 
 /// What the comments say, and which keys are live.
 pub(crate) struct Style<'a> {
@@ -194,6 +194,16 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// What a walk writes between the braces of table `name`; what there is to say of its keys is left in `comments`.
+    fn inline(&mut self, name: &str, walk: impl FnOnce(&mut Self)) -> String {
+        self.path.push(name.to_string());
+        self.inline = Some(Vec::new());
+        self.comments.clear();
+        walk(self);
+        self.path.pop();
+        self.inline.take().unwrap_or_default().join(", ")
+    }
+
     fn header(&mut self, bracketed: String, doc: &str) {
         self.flush();
         self.out.push('\n');
@@ -220,46 +230,56 @@ fn explain(spec: &Spec, range: Words) -> String {
     text
 }
 
-impl Keys for Writer<'_> {
-    fn key<T: ValueType>(&mut self, spec: Spec, _: Fallback<T>, value: &mut T) {
+impl Walk for Writer<'_> {
+    fn at_key(&mut self, spec: Spec, _: Fallback<&dyn Field>, value: &mut dyn Field) -> bool {
         let given = self
             .provenance(spec.name)
             .is_some_and(|provenance| matches!(provenance.origin, Origin::File | Origin::Override));
         let live = !self.style.template || given;
-        self.add(&spec, T::range, &value.write(), live);
+        self.add(&spec, value.kind().range, &value.write(), live);
+        false
     }
 
-    fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
-        if let Some(value) = value {
-            self.add(&spec, T::range, &value.write(), true);
+    fn at_optional(&mut self, spec: Spec, given: bool, value: &mut dyn Field) -> bool {
+        if given {
+            self.add(&spec, value.kind().range, &value.write(), true);
         } else if self.style.template {
-            self.comment(format!("{}: {}", spec.name, explain(&spec, T::range)));
+            self.comment(format!("{}: {}", spec.name, explain(&spec, value.kind().range)));
         }
+        given
     }
 
-    fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
+    fn at_only_where(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut dyn Field) {
+        let range = value.kind().range;
         if wanted {
-            return self.add(&spec, T::range, &value.write(), true);
+            return self.add(&spec, range, &value.write(), true);
         }
         if self.style.template && (self.inline.is_some() || !value.fits(&spec)) {
-            self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
+            self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, range)));
         } else if self.style.template {
-            self.add(&spec, T::range, &value.write(), false);
+            self.add(&spec, range, &value.write(), false);
             if let Some(line) = self.lines.last_mut() {
                 line.comment.push_str(&format!("; only where {case}"));
             }
         }
     }
 
-    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, fallback: Fallback<T>, value: &mut T) {
+    fn at_key_where(
+        &mut self,
+        spec: Spec,
+        (wanted, case): Case,
+        fallback: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
         if wanted {
-            self.key(spec, fallback, value);
+            self.at_key(spec, fallback, value);
         } else if self.style.template {
-            self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
+            self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, value.kind().range)));
         }
+        false
     }
 
-    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+    fn at_section(&mut self, spec: Spec, keys: &mut dyn FnMut(&mut Keys)) {
         self.flush();
         let before = self.out.len();
         if self.skips(spec.name) {
@@ -278,8 +298,8 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, _: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
-        if items.is_empty() && self.style.template && !self.path.is_empty() {
+    fn at_tables(&mut self, spec: Spec, items: &mut dyn Tables) {
+        if items.count() == 0 && self.style.template && !self.path.is_empty() {
             self.comment(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
         }
         if self.skips(spec.name) {
@@ -288,46 +308,33 @@ impl Keys for Writer<'_> {
             return;
         }
         let first = if let Part::Seat(k) = self.part { k } else { 0 };
-        for (i, item) in items.iter_mut().enumerate().map(|(i, item)| (first + i, item)) {
+        for i in 0..items.count() {
             self.header(format!("[[{}]]", self.part.header(&self.path_of(spec.name))), spec.doc);
             self.path.push(spec.name.to_string());
-            self.path.push(i.to_string());
-            keys(self, item);
+            self.path.push((first + i).to_string());
+            items.walk(i, self);
             self.path.truncate(self.path.len() - 2);
         }
     }
 
-    fn one_of<T: 'static>(
-        &mut self,
-        spec: Spec,
-        variants: &'static [Variant<T>],
-        value: &mut T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
-        let chosen = variant_of(variants, value).name;
+    fn at_one_of(&mut self, spec: Spec, value: &mut dyn Offers) {
+        let all = value.all();
+        let (chosen, _) = all[value.chosen()];
         self.path.push(spec.name.to_string());
-        let mut walk = |writer: &mut Self, name: &str, value: &mut T| {
-            writer.path.push(name.to_string());
-            writer.inline = Some(Vec::new());
-            writer.comments.clear();
-            keys(writer, value);
-            writer.path.pop();
-            writer.inline.take().unwrap_or_default().join(", ")
-        };
         if self.style.template {
             let say = |writer: &mut Self, comment: String| {
                 writer.lines.push(Line { code: String::new(), comment });
             };
             say(self, format!("{}: {}; one of", spec.name, spec.doc));
-            for variant in variants {
-                walk(self, variant.name, &mut (variant.blank)());
-                say(self, format!("  {}: {}", variant.name, variant.doc));
+            for (i, (name, doc)) in all.into_iter().enumerate() {
+                self.inline(name, |writer| value.walk_blank(i, writer));
+                say(self, format!("  {name}: {doc}"));
                 for comment in std::mem::take(&mut self.comments) {
                     say(self, format!("    {comment}"));
                 }
             }
         }
-        let inner = walk(self, chosen, value);
+        let inner = self.inline(chosen, |writer| value.walk(writer));
         self.path.pop();
         let comment = match self.style.template {
             true => String::new(),

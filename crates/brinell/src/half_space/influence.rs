@@ -4,8 +4,10 @@
 //! cells of x, pressures as displacements: u = (dx / (pi E*)) A p with A from here.
 
 use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, RealToComplex};
 use std::sync::Arc;
+
+use crate::signal::fft;
 
 /// Real and imaginary parts that are summed together.
 const LANES: usize = 8;
@@ -88,8 +90,7 @@ impl Influence {
     pub fn new(cells: Cells) -> Self {
         let Cells { along, across, aspect, mirrored } = cells;
         let padded = fast_length(2 * along + APART);
-        let mut planner = RealFftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
+        let (forward, inverse) = (fft::forward(padded), fft::inverse(padded));
         let rows = if mirrored { 2 * across } else { across };
         let groups = (2 * (padded / 2 + 1)).div_ceil(LANES);
         let apart = across - 1 + rows + BLOCK;

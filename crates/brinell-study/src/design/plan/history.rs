@@ -22,7 +22,7 @@ pub(super) struct HistoryKeys {
 
 impl HistoryKeys {
     /// How many runs there are: that number, or machines with their snapshots.
-    pub(super) fn of_all<K: Keys>(&mut self, k: &mut K, runs: &mut usize) {
+    pub(super) fn of_all(&mut self, k: &mut Keys, runs: &mut usize) {
         k.optional(
             key("machines", "how many machines, each with a history of snapshots: in place of runs")
                 .from(1.0)
@@ -39,7 +39,7 @@ impl HistoryKeys {
     }
 
     /// `[history]`.
-    pub(super) fn section<K: Keys>(&self, k: &mut K) -> Option<History> {
+    pub(super) fn section(&self, k: &mut Keys) -> Option<History> {
         let has = self.machines.is_some();
         let blank = || Varied::Fixed(f64::NAN);
         let mut h = History {
@@ -66,7 +66,7 @@ impl HistoryKeys {
     }
 }
 
-fn keys<K: Keys>(k: &mut K, h: &mut History, has: bool) {
+fn keys(k: &mut Keys, h: &mut History, has: bool) {
     let case = (has, CASE);
     k.only_where(
         key("every_h", "running time between snapshots, which tells nothing of the life").above(0.0).to(LONGEST_H),

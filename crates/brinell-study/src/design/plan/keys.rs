@@ -58,7 +58,7 @@ fn split_of((validation, test, by, severity, range): SplitKeys) -> Option<Split>
 }
 
 /// Every key of a plan, once.
-pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
+pub(in super::super) fn keys(k: &mut Keys, p: &mut Plan) {
     k.key(key("name", "name of the data set"), stated("dataset".into(), "no name given"), &mut p.name);
     k.key(key("base", "file of the base scenario, from the plan's folder"), Fallback::Required, &mut p.base);
     let mut history = HistoryKeys::default();

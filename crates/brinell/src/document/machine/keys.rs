@@ -20,7 +20,7 @@ const BY_MATRICES: &str = "the housing has matrices";
 const DEFAULT_HZ: f64 = 300.0;
 const DEFAULT_RATIO: f64 = 0.05;
 
-pub(in super::super) fn machine<K: Keys>(k: &mut K, m: &mut Machine) {
+pub(in super::super) fn machine(k: &mut Keys, m: &mut Machine) {
     k.section(key("shaft", "what the bearings sit on: cylindrical parts along Z"), |k| shaft(k, &mut m.shaft));
     k.tables(key("bearing", "a bearing, with all its keys"), &mut m.seats, Seat::unset, seat);
     let (seats, shaft) = (&m.seats, &m.shaft);
@@ -47,7 +47,7 @@ pub(in super::super) fn machine<K: Keys>(k: &mut K, m: &mut Machine) {
     );
 }
 
-fn shaft<K: Keys>(k: &mut K, s: &mut Shaft) {
+fn shaft(k: &mut Keys, s: &mut Shaft) {
     k.key(
         key("stations_mm", "Z of the ends and of every change of the diameter, rising; channels shaft.x1, shaft.y1, ... are its displacements there"),
         Required,
@@ -120,7 +120,7 @@ fn shaft<K: Keys>(k: &mut K, s: &mut Shaft) {
 }
 
 /// `density` is the shaft's, kg/m^3.
-fn disc<K: Keys>(k: &mut K, density: f64, d: &mut Disc) {
+fn disc(k: &mut Keys, density: f64, d: &mut Disc) {
     k.key(key("at_mm", "Z of its middle"), Required, &mut d.at_mm);
     k.optional(key("diameter_mm", "of a disc that its size gives the mass of").above(0.0), &mut d.diameter_mm);
     k.optional(key("width_mm", "along the axis, likewise").above(0.0), &mut d.width_mm);
@@ -148,7 +148,7 @@ fn disc<K: Keys>(k: &mut K, density: f64, d: &mut Disc) {
     );
 }
 
-fn seat<K: Keys>(k: &mut K, s: &mut Seat) {
+fn seat(k: &mut Keys, s: &mut Seat) {
     k.key(key("at_mm", "Z of its middle on the shaft"), Required, &mut s.at_mm);
     k.optional(
         key("housing", "number of the [[housing]] that its outer ring sits in; left out: in the only one; without any on `support`").from(1.0),
@@ -181,7 +181,7 @@ fn seat<K: Keys>(k: &mut K, s: &mut Seat) {
 }
 
 /// `within`: where its bearings are, mm.
-fn housing<K: Keys>(k: &mut K, within: &[f64], h: &mut MachineHousing) {
+fn housing(k: &mut Keys, within: &[f64], h: &mut MachineHousing) {
     k.optional(
         key("modes", "in place of a rigid body: frequency, damping and shapes at seats and sensors, of modal mass 1 kg and without outer rings; or a CSV file's name"),
         &mut h.modes,
@@ -264,7 +264,7 @@ fn housing<K: Keys>(k: &mut K, within: &[f64], h: &mut MachineHousing) {
     }
 }
 
-fn sensor<K: Keys>(k: &mut K, (number, shaft): (usize, &Shaft), s: &mut Accelerometer) {
+fn sensor(k: &mut Keys, (number, shaft): (usize, &Shaft), s: &mut Accelerometer) {
     k.key(
         key("name", "its channel is housing1.NAME or shaft.NAME"),
         stated(format!("sensor{number}"), "by its number"),

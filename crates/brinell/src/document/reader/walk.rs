@@ -1,75 +1,84 @@
 //! The walk over the list of keys, as it reads a file.
 
-use super::super::keys::{Case, Fallback, Keys, Variant};
+use super::super::field::Field;
 use super::super::problem::{Problem, Severity};
 use super::super::source::{Node, Value, brief_path};
-use super::super::spec::{Spec, key};
+use super::super::spec::Spec;
 use super::super::toml_text::quote;
-use super::super::value_type::ValueType;
+use super::super::walk::{Case, Fallback, Keys, Offers, Tables, Walk};
 use super::{MOST_TABLES, Reader, join};
 use crate::bearing::clearance::ClearanceClass;
 use crate::bearing::{KnownBearing, catalogue, clearance_of};
 use crate::did_you_mean::{did_you_mean, nearest_few, other_word};
 use crate::scenario::Laws;
 
-impl Keys for Reader<'_> {
-    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+impl Walk for Reader<'_> {
+    fn at_key(&mut self, spec: Spec, fallback: Fallback<&dyn Field>, value: &mut dyn Field) -> bool {
         let (path, entry) = self.name(&spec);
-        let read = match entry {
-            Some(entry) => self.read(&path, &spec, &entry.node),
-            None if matches!(fallback, Fallback::Instead { .. }) => self.fall_back(path, &spec, fallback),
-            None => self.catalogued(&path, &spec).or_else(|| self.fall_back(path, &spec, fallback)),
-        };
-        *value = read.unwrap_or_else(T::unset);
-    }
-
-    fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
-        let (path, entry) = self.name(&spec);
-        *value = entry.map(|entry| self.read(&path, &spec, &entry.node).unwrap_or_else(T::unset));
-    }
-
-    fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
-        let (path, entry) = self.name(&spec);
-        *value = T::unset();
         match entry {
-            Some(entry) if wanted => {
-                *value = self.read(&path, &spec, &entry.node).unwrap_or_else(T::unset);
+            Some(entry) => self.read(&path, &spec, &entry.node, value),
+            None if matches!(fallback, Fallback::Instead { .. }) => {
+                return self.fall_back(path, &spec, fallback, value);
             }
+            None if self.catalogued(&path, &spec, value) => {}
+            None => return self.fall_back(path, &spec, fallback, value),
+        }
+        false
+    }
+
+    fn at_optional(&mut self, spec: Spec, _: bool, value: &mut dyn Field) -> bool {
+        let (path, entry) = self.name(&spec);
+        if let Some(entry) = entry {
+            self.read(&path, &spec, &entry.node, value);
+        }
+        entry.is_some()
+    }
+
+    fn at_only_where(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut dyn Field) {
+        let (path, entry) = self.name(&spec);
+        match entry {
+            Some(entry) if wanted => return self.read(&path, &spec, &entry.node, value),
             Some(entry) => {
                 let problem =
                     Problem::error(path, format!("has a meaning only where {case}")).value(entry.node.brief());
                 self.problems.add(problem, entry.node.span.clone());
             }
             None if wanted => {
-                let expected = T::expected(&spec);
+                let expected = (value.kind().expected)(&spec);
                 self.missing(path, spec.unit, expected, &format!(" where {case}"));
             }
             None => {}
         }
+        value.unset();
     }
 
-    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, fallback: Fallback<T>, value: &mut T) {
-        if wanted {
-            self.key(spec, fallback, value);
-        } else {
-            self.only_where(spec, false, case, value);
-        }
-    }
-
-    fn key_acting_where<T: ValueType>(
+    fn at_key_where(
         &mut self,
         spec: Spec,
         (wanted, case): Case,
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
+        fallback: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
         if wanted {
-            return self.key(spec, fallback, value);
+            return self.at_key(spec, fallback, value);
+        }
+        self.at_only_where(spec, false, case, value);
+        false
+    }
+
+    fn at_key_acting_where(
+        &mut self,
+        spec: Spec,
+        (wanted, case): Case,
+        fallback: Fallback<&dyn Field>,
+        value: &mut dyn Field,
+    ) -> bool {
+        if wanted {
+            return self.at_key(spec, fallback, value);
         }
         let (path, entry) = self.name(&spec);
-        *value = fallback.value().unwrap_or_else(T::unset);
         if let Some(entry) = entry {
-            match T::read(&entry.node, &spec) {
+            match value.as_written(&entry.node, &spec) {
                 Ok(_) => {
                     let message = format!("has no effect: it acts only where {case}");
                     let problem = Problem::new(Severity::Warning, path, message);
@@ -79,28 +88,26 @@ impl Keys for Reader<'_> {
                 Err(misfit) => self.misfit(path, &spec, &entry.node, misfit),
             }
         }
+        value.unset();
+        fallback.value().is_some()
     }
 
-    fn foretold<T: ValueType>(&mut self, section: &str, name: &'static str) -> Option<T> {
+    fn later(&self, section: &str, name: &str) -> Option<&Node> {
         let section = self.frames.first()?.table?.get(section)?;
         let Value::Table(table) = &section.node.value else {
             return None;
         };
-        T::read(&table.get(name)?.node, &key(name, "")).ok()
+        Some(&table.get(name)?.node)
     }
 
     fn gives(&self, section: &str, name: &str) -> Option<bool> {
-        let section = self.frames.first()?.table?.get(section);
-        Some(
-            section
-                .is_some_and(|section| matches!(&section.node.value, Value::Table(table) if table.contains_key(name))),
-        )
+        Some(self.later(section, name).is_some())
     }
 
-    fn preset(&mut self, spec: Spec, laws: Laws, value: &mut Option<String>) {
-        let before = self.problems.count();
-        self.optional(spec, value);
-        if self.problems.count() > before {
+    fn after_preset(&mut self, spec: Spec, laws: Laws, value: &mut Option<String>) {
+        let path = join(&self.frame().path, spec.name);
+        let node = self.found.get(&path).copied();
+        if node.is_some_and(|node| value.as_ref().is_some_and(|value| value.as_written(node, &spec).is_err())) {
             self.preset_unknown = true;
             *value = None;
         }
@@ -128,8 +135,7 @@ impl Keys for Reader<'_> {
                 (None, None) => String::new(),
             },
         };
-        let path = join(&self.frame().path, spec.name);
-        let span = self.found.get(&path).and_then(|node| node.span.clone());
+        let span = node.and_then(|node| node.span.clone());
         let problem = Problem::error(path, format!("not in the catalogue{hint}"))
             .value(quote(name))
             .allowed(nearest_few(name, names));
@@ -140,7 +146,7 @@ impl Keys for Reader<'_> {
         self.named_clearance
     }
 
-    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+    fn at_section(&mut self, spec: Spec, keys: &mut dyn FnMut(&mut Keys)) {
         let (path, entry) = self.name(&spec);
         if let Some(entry) = entry
             && !matches!(entry.node.value, Value::Table(_))
@@ -154,7 +160,7 @@ impl Keys for Reader<'_> {
         self.leave();
     }
 
-    fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, blank: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
+    fn at_tables(&mut self, spec: Spec, items: &mut dyn Tables) {
         let (path, entry) = self.name(&spec);
         items.clear();
         let Some(entry) = entry else {
@@ -180,24 +186,16 @@ impl Keys for Reader<'_> {
                 self.problems.add(wrong(node), node.span.clone());
                 continue;
             }
-            let mut item = blank();
             self.enter(format!("{path}.{i}"), Some(node));
-            keys(self, &mut item);
+            items.walk_new(self);
             self.leave();
-            items.push(item);
         }
     }
 
-    fn one_of<T: 'static>(
-        &mut self,
-        spec: Spec,
-        variants: &'static [Variant<T>],
-        value: &mut T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
+    fn at_one_of(&mut self, spec: Spec, value: &mut dyn Offers) {
         let (path, entry) = self.name(&spec);
-        *value = (variants[0].blank)();
-        let known: Vec<&str> = variants.iter().map(|variant| variant.name).collect();
+        value.choose(0);
+        let known: Vec<&str> = value.all().into_iter().map(|(name, _)| name).collect();
         let list = known.join(", ");
         let Some(entry) = entry else {
             self.missing(path, "", format!("a table with one of {list}"), "");
@@ -218,7 +216,7 @@ impl Keys for Reader<'_> {
         }
         for (name, inner) in table {
             let inner_path = join(&path, name);
-            let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
+            let Some(i) = known.iter().position(|known| known == name) else {
                 self.problems.add_of(Severity::Error, format!("unknown {}", spec.name), || {
                     let hint = did_you_mean(name, known.iter().copied())
                         .or_else(|| other_word(name).filter(|word| known.contains(word)))
@@ -237,9 +235,9 @@ impl Keys for Reader<'_> {
                 let problem = Problem::error(inner_path.clone(), message).value(inner.node.brief());
                 self.problems.add(problem, inner.node.span.clone());
             }
-            *value = (variant.blank)();
+            value.choose(i);
             self.enter(inner_path, Some(&inner.node));
-            keys(self, value);
+            value.walk(self);
             self.leave();
             self.keep_of_file(&path, name, &inner.node);
         }
