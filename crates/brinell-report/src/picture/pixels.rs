@@ -66,8 +66,11 @@ impl Picture {
 
 /// Nothing is transparent, so three bytes a pixel.
 fn encode(pixels: &skia::Pixmap, per_metre: Option<f64>) -> Result<Vec<u8>, Error> {
-    let opaque = pixels.pixels().iter();
-    let bytes: Vec<u8> = opaque.flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
+    // A plain loop: this crate is not optimised, and the pixels are millions.
+    let mut bytes = vec![0; pixels.data().len() / 4 * 3];
+    for (rgb, rgba) in bytes.chunks_exact_mut(3).zip(pixels.data().chunks_exact(4)) {
+        rgb.copy_from_slice(&rgba[..3]);
+    }
     let failed = |error: png::EncodingError| Error::Png(error.to_string());
     let mut file = vec![];
     let mut encoder = png::Encoder::new(&mut file, pixels.width(), pixels.height());
