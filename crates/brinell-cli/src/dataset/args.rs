@@ -37,7 +37,7 @@ use std::path::PathBuf;
     runs/part-00000.parquet    one row a run: signals, what a model may be given, labels\n  \
     truth/part-00000.parquet   of the same rows damage, entries, forces, warnings, scenario\n  \
     dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
-    README.md                  the card: splits, classes, what two simple classifiers tell\n  \
+    README.md                  the card: splits, classes, what a simple classifier tells\n  \
     bearing_datasets/          for the Python package bearing-datasets, beside measured data sets\n  \
     held_out/                  labels and truth of the runs that `held_out` sets apart\n  \
     sheet.html                 a few runs of each class to look at: `brinell dataset sheet`\n  \

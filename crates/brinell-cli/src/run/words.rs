@@ -1,7 +1,7 @@
 //! What is printed of a run.
 
 use crate::say::{one_line, short};
-use brinell::observe::{DefectLine, Findings, Kind};
+use brinell::observe::{ChannelStatistics, DefectLine, Findings, Kind};
 use brinell::plausibility::{converted, doubtful, unsettled};
 use brinell::result::Parts;
 use brinell::result::fields;
@@ -33,7 +33,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     ));
     printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
     printed.extend(sensor_lines(simulation, findings));
-    printed.extend(healthy_line(parts));
+    printed.extend(healthy_lines(parts));
     printed.extend(spread.map(super::spread::lines).into_iter().flatten());
     let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
@@ -89,19 +89,28 @@ fn sensor_lines(simulation: &Simulation, findings: &Findings) -> Vec<String> {
     printed
 }
 
-/// The level beside the healthy bearing's.
-fn healthy_line(parts: &Parts) -> Option<String> {
-    let healthy = parts.healthy?;
-    let (rms, ratio) = (healthy.rms()?, parts.findings.over_healthy(healthy)?);
-    let interval = ratio
-        .interval
-        .map_or(String::new(), |(low, high)| format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3)));
-    Some(format!(
-        "  {} without the damage: RMS {} m/s^2; damaged over healthy {}{interval}",
-        healthy.sensor,
-        short(rms.value, 3),
-        short(ratio.value, 3),
-    ))
+/// What the sensor read beside what it reads of the healthy bearing, along each axis.
+fn healthy_lines(parts: &Parts) -> Vec<String> {
+    let Some(healthy) = parts.healthy else {
+        return Vec::new();
+    };
+    let line = |channel: &ChannelStatistics| {
+        let name = &channel.name;
+        let (rms, ratio) = (healthy.rms_of(name)?, parts.findings.over_healthy_of(healthy, name)?);
+        let interval = ratio.interval.map_or(String::new(), |(low, high)| {
+            format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3))
+        });
+        // Else a reader looks for a mistake.
+        let why =
+            if ratio.value < 1.0 { ": here the load that passes from roller to roller counts for more" } else { "" };
+        let (rms, ratio, unit) = (short(rms.value, 3), short(ratio.value, 3), channel.unit);
+        Some(format!("  {name} without the damage: RMS {rms} {unit}; damaged over healthy {ratio}{interval}{why}"))
+    };
+    let read = parts.findings.channels.iter().filter(|channel| {
+        let is_read = parts.simulation.is_sensor(&channel.name) || channel.name == parts.findings.sensor;
+        is_read && channel.kind == Kind::AntiAliased
+    });
+    read.filter_map(line).collect()
 }
 
 /// What the envelope has of a defect.

@@ -9,7 +9,11 @@ impl Trend {
     /// What is said of a level: each change, or that there is none.
     pub fn words(&self, of: &Followed) -> String {
         let Some(outcome) = &of.outcome else {
-            return format!("{} of {FEWEST} records that a change is looked for in", of.course.t.len());
+            let few = format!("too few records to test for a change: {} of {FEWEST}", of.course.t.len());
+            return match (of.level.by_factors, &of.course.y[..]) {
+                (true, [first, .., last]) => format!("{} times the first; {few}", short((last - first).exp(), 2)),
+                _ => few,
+            };
         };
         if outcome.changes.is_empty() && outcome.p <= self.alpha {
             return format!("changed (p = {}), not clear whether in level or in scatter", short(outcome.p, 2));

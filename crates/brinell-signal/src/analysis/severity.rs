@@ -92,7 +92,14 @@ pub enum NoZone {
     /// The level is none.
     #[error("not known, as {0} m/s is no RMS velocity")]
     Velocity(f64),
+    /// No running machine is so quiet.
+    #[error("not known, as no running machine vibrates as little as {} mm/s: is the unit of the signal right?", crate::short(1e3 * .0, 3))]
+    Quiet(f64),
 }
+
+/// RMS velocity below which no zone is told, m/s: a twelfth of the least of 62 measured records, healthy and damaged (those of docs/src/measured.md).
+/// A signal in g that is called one in mm/s^2 lies 9807 times lower.
+const QUIETEST: f64 = 1e-5;
 
 impl MachineClass {
     /// All, in the order of the standard's tables.
@@ -126,13 +133,14 @@ impl MachineClass {
     /// The zone of an RMS velocity (m/s) of a machine whose shaft turns at `rpm`.
     ///
     /// # Errors
-    /// [`NoZone`] where the standard is not for that speed, or the velocity is negative or not finite.
+    /// [`NoZone`] where the standard is not for that speed, or the velocity is negative, not finite, or below that of any running machine.
     pub fn zone(self, velocity: f64, rpm: f64) -> Result<Zone, NoZone> {
         let (least, from_ten, most) = SPEEDS;
         match rpm {
             _ if !(least..=most).contains(&rpm) => return Err(NoZone::Speed(rpm)),
             _ if rpm < from_ten => return Err(NoZone::Slow(rpm)),
             _ if !(velocity >= 0.0 && velocity.is_finite()) => return Err(NoZone::Velocity(velocity)),
+            _ if velocity < QUIETEST => return Err(NoZone::Quiet(velocity)),
             _ => {}
         }
         let beyond = self.boundaries().iter().filter(|b| 1e3 * velocity > **b).count();
@@ -270,6 +278,8 @@ mod tests {
         assert_eq!(LargeRigid.zone(1e-3, 500.0), Err(NoZone::Slow(500.0)));
         assert_eq!(LargeRigid.zone(1e-3, 100.0), Err(NoZone::Speed(100.0)));
         assert_eq!(LargeRigid.zone(1e-3, 31_000.0), Err(NoZone::Speed(31_000.0)));
+        assert_eq!(LargeRigid.zone(1.94e-8, 1500.0), Err(NoZone::Quiet(1.94e-8)));
+        assert_eq!(LargeRigid.zone(1.2e-4, 1500.0), Ok(Zone::A), "the least of a measured record");
         for none in [f64::NAN, -1e-3, f64::INFINITY] {
             assert!(matches!(LargeRigid.zone(none, 1500.0), Err(NoZone::Velocity(_))), "{none}");
         }

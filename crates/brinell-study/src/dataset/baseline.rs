@@ -46,12 +46,12 @@ pub(crate) struct Baselines {
     pub(crate) by_split: bool,
     /// Runs that have no features.
     pub(crate) without: usize,
-    /// Of each family and each class: runs that were told rightly, and how many there are.
-    pub(crate) right: [Vec<[usize; 2]>; FAMILIES.len()],
+    /// Of each family and each class: runs that were told rightly, and how many there are; `None` where a class has too few to learn from.
+    pub(crate) right: Option<[Vec<[usize; 2]>; FAMILIES.len()]>,
 }
 
-/// Scores of the runs in a folder whose files are all there; `None` where classes or runs are too few to learn from, or
-/// rows are snapshots of machines, whose class says what will be damaged.
+/// Scores of the runs in a folder whose files are all there; `None` where there are no classes to tell, or rows are snapshots of machines, whose class
+/// says what will be damaged.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -97,10 +97,7 @@ pub(crate) fn baselines(folder: &Path, about: &About) -> Result<Option<Baselines
         true => of_class(class, Some(false)) >= LEAST && of_class(class, Some(true)) > 0,
         false => of_class(class, None) >= LEAST,
     };
-    if !(0..classes).all(enough) {
-        return Ok(None);
-    }
-    let right = [0, 1, 2].map(|family| scores(&known, &fold, family, classes));
+    let right = (0..classes).all(enough).then(|| [0, 1, 2].map(|family| scores(&known, &fold, family, classes)));
     Ok(Some(Baselines { signal: opened.signal, by_split, without, right }))
 }
 
@@ -223,6 +220,11 @@ fn share(right: usize, of: usize) -> [f64; 3] {
 impl Baselines {
     /// The section of the card; `classes` are their names.
     pub(crate) fn section(&self, classes: &[String]) -> String {
+        let Some(right) = &self.right else {
+            let told = if self.by_split { ", and one in the split `test`" } else { "" };
+            let learned = if self.by_split { " in the split `train`" } else { "" };
+            return format!("\n## Baselines\n\nToo few runs: each class needs {LEAST}{learned} to learn from{told}.\n");
+        };
         let how = match self.by_split {
             true => "Learned from the split `train`, told of the split `test`.".to_owned(),
             false => {
@@ -243,7 +245,7 @@ impl Baselines {
             100.0 / classes.len() as f64,
             " |".repeat(classes.len())
         );
-        for (family, right) in FAMILIES.iter().zip(&self.right) {
+        for (family, right) in FAMILIES.iter().zip(right) {
             let [all, of] = right.iter().fold([0, 0], |[a, b], [right, of]| [a + right, b + of]);
             let [low, p, high] = share(all, of).map(|x| 100.0 * x);
             let each: String = right.iter().map(|[right, of]| format!(" {right} of {of} |")).collect();

@@ -38,7 +38,10 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
         draws.parameters().iter().any(|p| within(&p.key, key) || within(key, &p.key))
     };
     let has_histories = draws.plan().history.is_some();
-    let may_fit = |miss: &Misses| miss.count < survey.runs && (!has_histories || is_drawn(&miss.problem.key));
+    // A key that there is not has no value that fits.
+    let is_known = |miss: &Misses| !miss.problem.message.starts_with("unknown key");
+    let may_fit =
+        |miss: &Misses| miss.count < survey.runs && is_known(miss) && (!has_histories || is_drawn(&miss.problem.key));
     let some = survey.errors.iter().any(may_fit);
     if let (false, true, Some(last)) = (redraws, some, problems.last_mut()) {
         // A snapshot that is drawn again would be of another machine.

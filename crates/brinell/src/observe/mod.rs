@@ -129,18 +129,31 @@ pub struct Findings {
 impl Findings {
     /// Statistics of the channel `sensor`.
     pub fn of_sensor(&self) -> Option<&ChannelStatistics> {
-        let mut channels = self.channels.iter();
-        channels.find(|c| c.name == self.sensor && c.kind == Kind::AntiAliased)
+        self.of_channel(&self.sensor)
     }
 
-    /// Its RMS, m/s^2.
+    fn of_channel(&self, name: &str) -> Option<&ChannelStatistics> {
+        self.channels.iter().find(|c| c.name == name && c.kind == Kind::AntiAliased)
+    }
+
+    /// RMS of the channel `sensor`, m/s^2.
     pub fn rms(&self) -> Option<Estimate> {
-        self.of_sensor()?.blocks.estimate(Indicator::Rms)
+        self.rms_of(&self.sensor)
     }
 
-    /// That over the same bearing's without its damage.
+    /// RMS of an anti-aliased channel, in its unit.
+    pub fn rms_of(&self, channel: &str) -> Option<Estimate> {
+        self.of_channel(channel)?.blocks.estimate(Indicator::Rms)
+    }
+
+    /// RMS of the channel `sensor` over that of the same bearing without its damage.
     pub fn over_healthy(&self, healthy: &Self) -> Option<Ratio> {
-        ratio(&self.rms()?, &healthy.rms()?)
+        self.over_healthy_of(healthy, &self.sensor)
+    }
+
+    /// The same of any anti-aliased channel.
+    pub fn over_healthy_of(&self, healthy: &Self, channel: &str) -> Option<Ratio> {
+        ratio(&self.rms_of(channel)?, &healthy.rms_of(channel)?)
     }
 }
 
