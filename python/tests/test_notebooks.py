@@ -78,7 +78,9 @@ def test_prop_a_notebook_shows_what_is_stored_in_it(path, tmp_path, monkeypatch,
         pytest.importorskip("ross")
         monkeypatch.setenv("BRINELL", request.getfixturevalue("command"))
     for name, value in ENVIRONMENT.items():
-        monkeypatch.setenv(name, value)
+        # What is compared with nothing stored runs three times as fast with the processor's own kernel.
+        if path.stem != BARE or name != "BRINELL_KERNEL":
+            monkeypatch.setenv(name, value)
     monkeypatch.delenv("BRINELL_RECORDS", raising=False)
     stored, notebook = (nbformat.read(path, as_version=4) for _ in range(2))
     if path.stem == BARE:
