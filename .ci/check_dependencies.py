@@ -4,49 +4,22 @@ The first three of cargo-deny's checks, which takes minutes to build; `cargo den
 """
 
 import json
-import re
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
 
+from license_expression import get_spdx_licensing
+
+SPDX = get_spdx_licensing()
 CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index"
 
 
 def held(expression: str, allowed: set[str], used: set[str]) -> bool:
-    """Whether an SPDX expression can be met by allowed licences; `WITH` binds more than `AND`, that more than `OR`, and `/` is an old `OR`."""
-    words = re.findall(r"[()]|[^\s()/]+|/", expression)
-
-    def either() -> bool:
-        met = both()
-        while words and words[0] in ("OR", "/"):
-            words.pop(0)
-            met = both() or met
-        return met
-
-    def both() -> bool:
-        met = one()
-        while words and words[0] == "AND":
-            words.pop(0)
-            met = one() and met
-        return met
-
-    def one() -> bool:
-        word = words.pop(0)
-        if word == "(":
-            met = either()
-            if words.pop(0) != ")":
-                raise ValueError(expression)
-            return met
-        if words and words[0] == "WITH":
-            word = f"{word} {words.pop(0)} {words.pop(0)}"
-        used.add(word)
-        return word in allowed
-
-    met = either()
-    if words:
-        raise ValueError(expression)
-    return met
+    """Whether an SPDX expression can be met by allowed licences; `/` is an old `OR`."""
+    parsed = SPDX.parse(expression.replace("/", " OR "))
+    used |= {str(symbol) for symbol in parsed.symbols}
+    return parsed.subs({symbol: SPDX.TRUE if str(symbol) in allowed else SPDX.FALSE for symbol in parsed.symbols}).simplify() == SPDX.TRUE
 
 
 def shipped(told: dict) -> set[str]:
@@ -88,9 +61,9 @@ def of_itself(rules: dict) -> None:
     sound = {"id": "a", "name": "a", "version": "1.0.0", "license": " AND ".join(allowed), "source": CRATES_IO, "dependencies": []}
     wild = {"source": None, "dependencies": [{"name": "b", "req": "*"}]}
     assert problems([sound], rules, {"a"}) == []
-    for part in ({"license": "GPL-3.0"}, {"license": None}, {"license": "MIT AND (GPL-3.0 OR X)"}, {"source": "git+https://github.com/a/a"}, wild):
+    for part in ({"license": "GPL-3.0-only"}, {"license": None}, {"license": "MIT AND (GPL-3.0-only OR X)"}, {"source": "git+https://github.com/a/a"}, wild):
         assert len(problems([sound, sound | part], rules, {"a"})) == 1, part
-    for licence in ("GPL-3.0 OR MIT", "GPL-3.0/MIT", "(MIT OR GPL-3.0) AND Apache-2.0", "GPL-3.0 AND X OR Apache-2.0 WITH LLVM-exception"):
+    for licence in ("GPL-3.0-only OR MIT", "GPL-3.0-only/MIT", "(MIT OR GPL-3.0-only) AND Apache-2.0", "GPL-3.0-only AND X OR Apache-2.0 WITH LLVM-exception"):
         assert problems([sound, sound | {"license": licence}], rules, {"a"}) == [], licence
 
 

@@ -71,6 +71,10 @@ fn regress_distributions_that_leave_a_range_are_refused_with_how_often() {
         "lubricant.viscosity_pa_s = -1.0: out of range (in 6 of 6 runs, such as run 0)\n  allowed: >= 0 Pa s\n",
         "plan.toml:9:",
     ]);
+    // No distribution has a key that there is not.
+    let folder = folder_with(&PLAN.replace("depth_um = { log = [5, 20] }", "depth_mm = { log = [0.005, 0.02] }"));
+    let call = make(folder.path(), &["-o", "out"]).exits(2).complains(&["unknown key; did you mean `depth_um`?"]);
+    assert!(!call.err.contains("give narrower distributions"), "{call:#?}");
     // A grid is not drawn again: the plan is impossible.
     let folder = folder_with(&plan.replace("[vary]", "out_of_range = \"redraw\"\n[vary]"));
     make(folder.path(), &["-o", "out"]).exits(2).complains(&["1000 further draws did not fit either"]);
