@@ -49,6 +49,14 @@ impl Judged {
         let told = format!("{}; {}", of.speed, a.shaft_words());
         let speed = match a.speed_used() {
             Some(used) => format!("{}. {used}", of.speed),
+            // Expected frequencies stand beside, and are of the speed that was found.
+            None if (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 => {
+                format!(
+                    "{}; {:.1} r/min by lines at its harmonics, to which the frequencies belong",
+                    of.speed,
+                    60.0 * a.shaft
+                )
+            }
             None => of.speed,
         };
         let record =

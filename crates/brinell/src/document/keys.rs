@@ -29,7 +29,7 @@ pub fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
     Fallback::Fixed { value, why, assumed: false }
 }
 
-/// One of the alternatives of [`Keys::one_of`].
+/// One of the alternatives of `Keys::one_of`.
 pub struct Variant<T> {
     pub(super) name: &'static str,
     pub(super) doc: &'static str,
@@ -116,7 +116,7 @@ fn with_own<T: ValueType>(
     }
 }
 
-/// The tables of [`Keys::tables`].
+/// The tables of `Keys::tables`.
 struct List<'a, T, F> {
     items: &'a mut Vec<T>,
     blank: fn() -> T,
@@ -147,7 +147,7 @@ impl<T, F: FnMut(&mut Keys, &mut T)> Tables for List<'_, T, F> {
     }
 }
 
-/// The value of [`Keys::one_of`].
+/// The value of `Keys::one_of`.
 struct OneOf<'a, T: 'static, F> {
     variants: &'static [Variant<T>],
     value: &'a mut T,

@@ -81,13 +81,13 @@ pub trait Walk {
     /// A key that may be absent, as it is where not `given`: whether it is there after the walk.
     fn at_optional(&mut self, spec: Spec, given: bool, value: &mut dyn Field) -> bool;
 
-    /// See [`Keys::only_where`].
+    /// See `Keys::only_where`.
     fn at_only_where(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut dyn Field);
 
-    /// See [`Keys::key_where`]. True as of [`Walk::at_key`].
+    /// See `Keys::key_where`. True as of [`Walk::at_key`].
     fn at_key_where(&mut self, spec: Spec, case: Case, fallback: Fallback<&dyn Field>, value: &mut dyn Field) -> bool;
 
-    /// See [`Keys::key_acting_where`]. True as of [`Walk::at_key`].
+    /// See `Keys::key_acting_where`. True as of [`Walk::at_key`].
     fn at_key_acting_where(
         &mut self,
         spec: Spec,
