@@ -38,11 +38,10 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
         draws.parameters().iter().any(|p| within(&p.key, key) || within(key, &p.key))
     };
     let has_histories = draws.plan().history.is_some();
-    // A key that there is not has no value that fits.
-    let is_known = |miss: &Misses| !miss.problem.message.starts_with("unknown key");
-    let may_fit =
-        |miss: &Misses| miss.count < survey.runs && is_known(miss) && (!has_histories || is_drawn(&miss.problem.key));
-    let some = survey.errors.iter().any(may_fit);
+    let may_fit = |miss: &Misses| miss.count < survey.runs && (!has_histories || is_drawn(&miss.problem.key));
+    // A key that there is not has no value that fits, and what is missing beside it comes of it.
+    let misspelt = survey.errors.iter().any(|miss| miss.problem.message.starts_with("unknown key"));
+    let some = !misspelt && survey.errors.iter().any(may_fit);
     if let (false, true, Some(last)) = (redraws, some, problems.last_mut()) {
         // A snapshot that is drawn again would be of another machine.
         let redraw = if has_histories { "" } else { "\"redraw\"` (draw such runs again) or `" };
