@@ -21,7 +21,7 @@ pub(crate) fn escape(text: &str) -> String {
 /// The same, with what stands between backticks as code.
 pub(crate) fn prose(text: &str) -> String {
     let parts: Vec<&str> = text.split('`').collect();
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         return escape(text);
     }
     let part = |(k, part): (usize, &&str)| match k % 2 {

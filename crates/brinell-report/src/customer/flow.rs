@@ -6,6 +6,7 @@
 use crate::chart::Size;
 use crate::data::Tone;
 use crate::font;
+use crate::number::minus;
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 use crate::tables::Table;
 
@@ -395,7 +396,7 @@ impl Column<'_> {
                 let head = head.trim_start_matches('#');
                 let said = if head == "Value" { format!("{cell} {unit}") } else { cell.clone() };
                 self.put(head, faint, (self.left, self.y + LINE * faint.size), Anchor::Start);
-                self.text(&said, face, (0.0, faint.width(head) + 0.5 * faint.size), 8);
+                self.text(&minus(&said), face, (0.0, faint.width(head) + 0.5 * faint.size), 8);
             }
             let under = self.y + 0.35 * self.set.body;
             self.picture.path(&[(self.left, under), (self.left + self.width, under)], Paint::line(ink::GRID, 1.0));
