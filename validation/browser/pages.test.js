@@ -38,6 +38,11 @@ describe("every page", { skip: pages.length ? false : `no page below ${folder}` 
           assert.equal(out, 0);
         });
 
+        if (width === 390) await t.test("no table is wider than a phone", async () => {
+          const wide = await page.evaluate(() => [...document.querySelectorAll(".scroll")].filter((box) => box.scrollWidth > box.clientWidth).map((box) => box.innerText.slice(0, 80)));
+          assert.deepEqual(wide, []);
+        });
+
         await t.test("each control has a name of its own", async () => {
           const names = await page.evaluate(() => [...document.querySelectorAll("button, input, select")].map((node) => node.getAttribute("aria-label") || node.textContent.trim()));
           assert.deepEqual(names.filter((one, k) => !one || names.indexOf(one) !== k), []);

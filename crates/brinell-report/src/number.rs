@@ -4,12 +4,40 @@
 pub use brinell::signal::short;
 use std::f64::consts::TAU;
 
-/// A value with its interval after it: `1.35 (1.30 to 1.40)`.
-pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
+/// A value with its interval after it: `1.35 (1.30 to 1.40)`; without one it has so many significant digits.
+pub(crate) fn bracketed(value: f64, digits: usize, interval: Option<(f64, f64)>) -> String {
     match interval {
-        Some((low, high)) => format!("{value} ({} to {})", short(low, 3), short(high, 3)),
-        None => value,
+        Some(ends) => {
+            let [value, low, high] = beside(value, ends);
+            format!("{value} ({low} to {high})")
+        }
+        None => short(value, digits),
     }
+}
+
+/// A value and the ends of its interval: each with three significant digits, and more down to the second digit of half
+/// the interval's width.
+pub(crate) fn beside(value: f64, (low, high): (f64, f64)) -> [String; 3] {
+    let half_width = 0.5 * (high - low);
+    [value, low, high].map(|x| short(x, if half_width > 0.0 { digits_beside(x, half_width).max(3) } else { 4 }))
+}
+
+/// Text of numbers as it is set: with minus signs, also in what the file has as hyphens.
+pub(crate) fn minus(text: &str) -> String {
+    let mut set = String::with_capacity(text.len() + 4);
+    let mut before = ' ';
+    for (at, c) in text.char_indices() {
+        let number = text[at + c.len_utf8()..].starts_with(|next: char| next.is_ascii_digit());
+        let sign = c == '-' && number && (before.is_whitespace() || matches!(before, '(' | '['));
+        set.push(if sign { '−' } else { c });
+        before = c;
+    }
+    set
+}
+
+/// Squares and cubes of a unit within a text.
+pub(crate) fn raised(text: &str) -> String {
+    text.replace("^2", "²").replace("^3", "³")
 }
 
 /// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
@@ -279,6 +307,35 @@ mod tests {
             [(107.64, 8.9e-5, 9), (24.842, 0.42, 4), (30.0, 1.0, 3), (3.0, 300.0, 2), (0.0, 1.0, 2), (1.0, 0.0, 2)]
         {
             assert_eq!(digits_beside(value, uncertainty), digits, "{value} {uncertainty}");
+        }
+    }
+
+    #[test]
+    fn regress_an_interval_is_as_fine_as_it_is_narrow() {
+        for (value, ends, text) in [
+            (249.683, (249.581, 249.784), "249.68 (249.58 to 249.78)"),
+            (5.7912, (5.6812, 5.9012), "5.79 (5.68 to 5.90)"),
+            (99.9, (98.1, 101.7), "99.9 (98.1 to 101.7)"),
+            (1.792, (0.498, 6.44), "1.79 (0.498 to 6.44)"),
+            (5.666_051e-6, (5.666_011e-6, 5.666_090e-6), "5.666051e-6 (5.666011e-6 to 5.666090e-6)"),
+            (2.0, (2.0, 2.0), "2.000 (2.000 to 2.000)"),
+            (-0.000_126_1, (-0.000_145, -0.000_108), "-0.000126 (-0.000145 to -0.000108)"),
+        ] {
+            assert_eq!(bracketed(value, 4, Some(ends)), text);
+        }
+        assert_eq!(bracketed(249.683, 4, None), "249.7");
+    }
+
+    #[test]
+    fn regress_minus_signs_are_those_of_numbers() {
+        for (given, set) in [
+            ("-0.0126 (-1 to -9.7e-5)", "−0.0126 (−1 to −9.7e-5)"),
+            (
+                "[0.0, -300]; 2026-01-01, r-5, --speed, pure-rolling",
+                "[0.0, −300]; 2026-01-01, r-5, --speed, pure-rolling",
+            ),
+        ] {
+            assert_eq!(minus(given), set);
         }
     }
 

@@ -11,7 +11,7 @@ use crate::embedded::Plot;
 use crate::fact::Fact;
 use crate::frame::{alert, close, code, contents, figure, folded, lead, none, open, section, unit_html};
 use crate::layout::Layout;
-use crate::markup::escape;
+use crate::markup::{escape, prose};
 use crate::misfit::{Tried, course_plot, embed_course, embed_key, key_plot};
 use crate::overlay::{Overlay, overlay, stacked};
 use crate::picture::Picture;
@@ -297,7 +297,7 @@ fn write_piece(page: &mut String, piece: &Piece, count: usize) {
             let _ = writeln!(page, "<p>{}</p>", escape(words));
             return;
         }
-        Piece::Note(words) => return none(page, &escape(words)),
+        Piece::Note(words) => return none(page, &prose(words)),
         Piece::Alert(strong, words) => return alert(page, strong, words),
         Piece::Verdict(tone, words) => {
             let _ = writeln!(page, "<p class=\"verdict {}\">{}</p>", tone.class(), escape(words));

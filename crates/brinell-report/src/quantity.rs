@@ -1,6 +1,6 @@
 //! Numbers of a run as people read them: what they are called, and their value with its interval.
 
-use crate::number::{bracketed, capital, short};
+use crate::number::{bracketed, capital};
 use brinell::result::Quantity;
 
 /// "RMS of sensor_ax" for `sensor_ax.rms`.
@@ -21,6 +21,5 @@ pub fn words(name: &str) -> String {
 
 /// A number with its interval, as a cell of a page's table.
 pub fn value_text(quantity: &Quantity) -> String {
-    let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
-    bracketed(value, quantity.interval())
+    quantity.value.map_or("–".to_owned(), |value| bracketed(value, 4, quantity.interval()))
 }

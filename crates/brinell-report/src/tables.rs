@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use crate::data::{Estimate, IndicatorRow, IndicatorTable};
 use crate::fact::{Fact, Value};
+use crate::font;
 use crate::frame::{none, unit_html};
-use crate::markup::escape;
-use crate::number::{short, significant, twelve_digits, with_interval};
+use crate::markup::{breakable, escape, prose};
+use crate::number::{minus, raised, short, significant, twelve_digits, with_interval};
 use brinell::document::Provenance;
 
 /// A cell with more characters than this is taken for a sentence.
@@ -43,28 +44,60 @@ const COLUMNS: usize = 4;
 /// Characters of a name that is not broken.
 const NAME: usize = 40;
 
+/// Text that is seen of a cell.
+fn text(html: &str) -> String {
+    let mut within = false;
+    let seen = |c: &char| {
+        within = (within || *c == '<') && *c != '>';
+        !within && *c != '>'
+    };
+    html.chars().filter(seen).collect()
+}
+
 /// Characters that are seen of a cell.
 fn seen(html: &str) -> usize {
-    let mut within = false;
-    html.chars()
-        .filter(|c| {
-            within = (within || *c == '<') && *c != '>';
-            !within && *c != '>'
-        })
-        .count()
+    text(html).chars().count()
+}
+
+/// On a narrow phone: room for a table, what a column of words and what a name has of it at least, and what lies
+/// between columns, px.
+const ROOM: f64 = 330.0;
+const WORDS: f64 = 125.0;
+const NAMES: f64 = 140.0;
+const BETWEEN: f64 = 10.0;
+/// Size of the text in tables, px.
+const SIZE: f64 = 14.5;
+
+/// The least width that a table has on a phone.
+fn width(heads: &[&str], rows: &[Vec<String>]) -> f64 {
+    let wide = |text: &str| font::width(text, SIZE, false);
+    let column = |(k, head): (usize, &&str)| {
+        let name = wide(head.trim_start_matches('#'));
+        let cells = || rows.iter().filter_map(|row| row.get(k)).map(|cell| wide(&text(cell)));
+        let widest = cells().fold(0.0, f64::max);
+        let least = match *head {
+            _ if k == 0 => widest.min(NAMES),
+            head if head.starts_with('#') || head == "Unit" => widest,
+            _ if widest > 0.0 => WORDS,
+            _ => 0.0,
+        };
+        least.max(name) + BETWEEN
+    };
+    heads.iter().enumerate().map(column).sum()
 }
 
 /// The one writer of tables: heads as [`Table::columns`], where `Note`, `Why` and `Source or reason` are set in grey; cells are HTML. On a
-/// narrow page each row of a table with many columns, or with sentences, is a card.
+/// narrow page each row of a table with many columns, with sentences, or too wide for it is a card.
 pub(crate) fn rows(page: &mut String, heads: &[impl AsRef<str>], rows: impl IntoIterator<Item = Vec<String>>) {
     let heads: Vec<&str> = heads.iter().map(AsRef::as_ref).collect();
     let rows: Vec<Vec<String>> = rows.into_iter().collect();
-    let stack = heads.len() > COLUMNS || rows.iter().flatten().any(|cell| seen(cell) > SENTENCE);
+    let stack =
+        heads.len() > COLUMNS || rows.iter().flatten().any(|cell| seen(cell) > SENTENCE) || width(&heads, &rows) > ROOM;
     let class = if stack { " class=\"stack\"" } else { "" };
     let _ = write!(page, "<div class=\"scroll\"><table{class}><thead><tr>");
     for head in &heads {
         let class = if head.starts_with('#') { " class=\"number\"" } else { "" };
-        let _ = write!(page, "<th{class}>{}</th>", escape(head.trim_start_matches('#')));
+        let _ = write!(page, "<th{class}>{}</th>", breakable(&escape(&raised(head.trim_start_matches('#')))));
     }
     page.push_str("</tr></thead><tbody>\n");
     let numbers = heads.iter().filter(|head| head.starts_with('#')).count();
@@ -72,13 +105,20 @@ pub(crate) fn rows(page: &mut String, heads: &[impl AsRef<str>], rows: impl Into
         page.push_str("<tr>");
         for (k, cell) in row.iter().enumerate() {
             let head = heads.get(k).copied().unwrap_or_default();
-            let name = head.trim_start_matches('#');
-            let labelled = stack && (numbers > 1 || !head.starts_with('#'));
-            let label = if labelled { format!(" data-head=\"{}\"", escape(name)) } else { String::new() };
+            let name = raised(head.trim_start_matches('#'));
+            // A first cell says itself what it is, unless it is a number; a unit beside one number is that number's.
+            let labelled = stack
+                && match head {
+                    _ if k == 0 => head.starts_with('#'),
+                    _ => numbers > 1 || !(head.starts_with('#') || head == "Unit"),
+                };
+            let label = if labelled { format!(" data-head=\"{}\"", escape(&name)) } else { String::new() };
             let _ = match head {
-                _ if k == 0 && seen(cell) <= NAME => write!(page, "<th scope=\"row\">{cell}</th>"),
-                _ if k == 0 => write!(page, "<td>{cell}</td>"),
-                "Unit" => write!(page, " <td class=\"unit\">{cell}</td>"),
+                _ if k == 0 && seen(cell) <= NAME => {
+                    write!(page, "<th scope=\"row\"{label}>{}</th>", breakable(cell))
+                }
+                _ if k == 0 => write!(page, "<td{label}>{}</td>", breakable(cell)),
+                "Unit" => write!(page, " <td class=\"unit\"{label}>{cell}</td>"),
                 "Note" | "Why" | "Source or reason" => write!(page, "<td class=\"note\">{cell}</td>"),
                 _ if head.starts_with('#') => write!(page, "<td class=\"number\"{label}>{cell}</td>"),
                 _ => write!(page, "<td{label}>{cell}</td>"),
@@ -99,7 +139,7 @@ pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
             Value::Number(number) if number.is_finite() => "value",
             _ => "value words",
         };
-        let value = escape(&fact.value.words(4));
+        let value = minus(&escape(&fact.value.words(4)));
         let _ = write!(page, "<div><dt>{}</dt><dd class=\"{class}\">{value}", escape(&fact.label));
         if !fact.unit.is_empty() {
             let gap = if fact.unit == "°" { "" } else { " " };
@@ -111,7 +151,7 @@ pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
             let _ = write!(page, "<dd>{}</dd>", judged(ok));
         }
         if !fact.note.is_empty() {
-            let _ = write!(page, "<dd class=\"note\">{}</dd>", escape(&fact.note));
+            let _ = write!(page, "<dd class=\"note\">{}</dd>", minus(&escape(&fact.note)));
         }
         page.push_str("</div>\n");
     }
@@ -130,7 +170,7 @@ pub(crate) fn fact_table(page: &mut String, facts: &[Fact]) {
     let row = |fact: &Fact| {
         let ok = fact.ok.map_or(String::new(), |ok| format!(" {}", judged(ok)));
         let [value, unit] = value_cells(&fact.value, &fact.unit);
-        vec![escape(&fact.label), value, unit, unit_html(&fact.note) + &ok]
+        vec![escape(&fact.label), minus(&value), unit, minus(&unit_html(&fact.note)) + &ok]
     };
     rows(page, &["Quantity", "#Value", "Unit", "Note"], facts.iter().map(row));
 }
@@ -153,7 +193,7 @@ pub(crate) fn indicators(page: &mut String, table: &IndicatorTable) {
     };
     rows(page, &heads, table.rows.iter().map(of));
     if !table.note.is_empty() {
-        none(page, &escape(&table.note));
+        none(page, &prose(&table.note));
     }
 }
 
@@ -218,15 +258,27 @@ fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Provenance>) {
     rows(page, &["Key", "#Value", "Unit", "Source or reason"], all.map(row));
 }
 
+/// A number; what stands in brackets after it, mostly its interval, is on a line of its own.
+fn number(cell: &str) -> String {
+    let cell = minus(&escape(cell));
+    match cell.split_once(" (") {
+        Some((value, interval)) if interval.ends_with(')') => {
+            format!("{value} <span class=\"half\">({interval}</span>")
+        }
+        _ => cell,
+    }
+}
+
 pub(crate) fn table(page: &mut String, table: &Table) {
     let _ = writeln!(page, "<section>\n<h2>{}</h2>", escape(&table.title));
     let cell = |(k, cell): (usize, &String)| match table.columns.get(k).map(String::as_str) {
         Some("Unit") => unit_html(cell),
+        Some(head) if head.starts_with('#') => number(cell),
         _ => escape(cell),
     };
     rows(page, &table.columns, table.rows.iter().map(|row| row.iter().enumerate().map(cell).collect()));
     if !table.note.is_empty() {
-        let _ = writeln!(page, "<p class=\"none\">{}</p>", escape(&table.note));
+        none(page, &prose(&table.note));
     }
     page.push_str("</section>\n");
 }

@@ -199,6 +199,9 @@ fn prop_both_files_say_the_same_line_by_line() {
     for part in ["Pump P-301 <b>", "The outer race is damaged", "154.9", "Method", "pump.csv"] {
         assert_eq!(words(&on_sheets).contains(part), column.contains(part), "{part}");
     }
+    // Tables are cards there: a line for each cell that says something, with the unit behind its value.
+    assert!(!column.contains("; Unit") && !column.contains("Value:") && !column.contains("–"), "{column}");
+    assert!(column.contains("Peak of the record Value"), "{column}");
     for part in ["<html lang=\"en\">", "<title>Pump P-301 &lt;b&gt;</title>", "@page { size: 210mm 297mm; margin: 0; }"]
     {
         assert!(html.contains(part), "{part}");

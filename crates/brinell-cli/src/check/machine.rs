@@ -42,9 +42,11 @@ pub(super) fn check(
     say!("");
     shaft(of, &derived);
     say!("");
+    let largest =
+        derived.bearings.iter().map(|one| one.carried.force[0].hypot(one.carried.force[1])).fold(0.0, f64::max);
     for (k, one) in derived.bearings.iter().enumerate() {
         say!("Bearing {} at Z = {} mm", k + 1, plain_number(of.seats[k].at_mm));
-        share(one);
+        share(one, largest);
         bearing(&one.scenario);
         frequencies(&one.scenario, &one.derived);
         match &one.derived.statics {
@@ -87,11 +89,11 @@ fn life(one: &DerivedBearing) -> Option<String> {
     ))
 }
 
-/// What the bearing has of the load, and how it stands.
-fn share(one: &DerivedBearing) {
+/// What the bearing has of the load, and how it stands. `largest`: what the bearing that carries most carries, N; the
+/// balance of all of them leaves over a little of that.
+fn share(one: &DerivedBearing, largest: f64) {
     let [x, y] = one.carried.force;
-    let size = x.hypot(y);
-    say!("  carries                 ({}, {}) N", significant(x, size, 4), significant(y, size, 4));
+    say!("  carries                 ({}, {}) N", significant(x, largest, 4), significant(y, largest, 4));
     if let Some(life) = life(one) {
         say!("  basic rating life       {life}");
     }

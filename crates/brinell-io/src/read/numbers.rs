@@ -43,6 +43,7 @@ impl Number {
     }
 
     /// Whether it has no fraction.
+    #[cfg(feature = "hdf5")]
     pub(crate) fn is_whole(self) -> bool {
         !matches!(self, Self::F16 | Self::F32 | Self::F64)
     }

@@ -3,7 +3,7 @@
 use super::words::rate;
 use super::{CustomerReport, Heading, Judged, NotJudged, Whole};
 use crate::analysis::{AnalysisReport, Findings, scaled, with_interval};
-use crate::number::short;
+use crate::number::{raised, short};
 use crate::tables::Table;
 use brinell::analysis::{Analysis, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
 use brinell::made_by::MadeBy;
@@ -60,7 +60,7 @@ impl Judged {
             None => of.speed,
         };
         let record =
-            format!("{} s, {} samples at {} Hz, in {}", short(a.duration(), 4), a.samples, m.rate, shown(unit));
+            format!("{} s, {} samples at {} Hz, in {}", short(a.duration(), 4), a.samples, m.rate, raised(unit));
         let row = |label: &str, words: String| (label.to_owned(), words);
         let file = match of.files.len() {
             0 => None,
@@ -75,7 +75,7 @@ impl Judged {
             row("Bearing", of.findings.bearing.to_owned()),
         ]);
         if !of.notes.is_empty() {
-            provenance.push(row("Sources", shown(&of.notes.join("; "))));
+            provenance.push(row("Sources", raised(&of.notes.join("; "))));
         }
         provenance
             .extend(of.findings.levels.class.map(|class| row("Class", format!("{} (ISO 20816-3)", class.words()))));
@@ -101,11 +101,6 @@ impl Judged {
             report: AnalysisReport::of_findings(&of.findings),
         }
     }
-}
-
-/// A unit with its exponents as letters.
-fn shown(unit: &str) -> String {
-    unit.replace("^2", "²").replace("^3", "³")
 }
 
 /// The first names, and how many there are beside.
@@ -207,7 +202,7 @@ fn evidence(a: &Analysis) -> Table {
 
 /// Levels of the signal, most with intervals.
 fn levels(of: &Findings) -> Table {
-    let (a, unit) = (of.signal.analysis, shown(&of.unit.name));
+    let (a, unit) = (of.signal.analysis, raised(&of.unit.name));
     let row = |name: &str, e: &Estimate, unit: &str| {
         let interval = with_interval(e);
         vec![name.to_owned(), short(e.value, 4), interval, unit.to_owned()]

@@ -6,6 +6,7 @@
 use crate::chart::Size;
 use crate::data::Tone;
 use crate::font;
+use crate::number::minus;
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 use crate::tables::Table;
 
@@ -378,18 +379,28 @@ impl Column<'_> {
         least.iter().zip(&wanted).map(|(least, wanted)| least + share * (wanted - least) + each).collect()
     }
 
-    /// A table where there is no room for columns: of each row its first cell, and the others with their heads.
+    /// A table where there is no room for columns: of each row its first cell, and below it each of the others that
+    /// says something on a line of its own, after its head. A unit stands behind the value.
     fn cards(&mut self, table: &Table, most: usize) {
         let shown = &table.rows[..table.rows.len().min(most)];
-        let (face, bold) = (self.body(), Face { color: ink::BLACK, ..self.body().bold() });
+        let (faint, face) = (Face::new(self.set.body, ink::FAINT), Face::new(self.set.body, ink::BLACK));
+        let says = |cell: &str| !matches!(cell, "" | "–");
         for row in shown {
-            let cells = row.iter().zip(&table.columns).skip(1).filter(|(cell, _)| !cell.is_empty());
-            let said: Vec<String> =
-                cells.map(|(cell, head)| format!("{}: {cell}", head.trim_start_matches('#'))).collect();
             let first = row.first().map_or("", String::as_str);
-            self.text(first, bold, (0.0, 0.0), 2);
-            self.text(&said.join("; "), face, (0.0, 0.0), 8);
-            self.gap(0.3);
+            if says(first) {
+                self.text(first, face.bold(), (0.0, 0.0), 2);
+            }
+            let unit = table.columns.iter().zip(row).find(|(head, _)| *head == "Unit").map_or("", |(_, cell)| cell);
+            let rest = table.columns.iter().zip(row).skip(1).filter(|(head, cell)| *head != "Unit" && says(cell));
+            for (head, cell) in rest {
+                let head = head.trim_start_matches('#');
+                let said = if head == "Value" { format!("{cell} {unit}") } else { cell.clone() };
+                self.put(head, faint, (self.left, self.y + LINE * faint.size), Anchor::Start);
+                self.text(&minus(&said), face, (0.0, faint.width(head) + 0.5 * faint.size), 8);
+            }
+            let under = self.y + 0.35 * self.set.body;
+            self.picture.path(&[(self.left, under), (self.left + self.width, under)], Paint::line(ink::GRID, 1.0));
+            self.gap(0.5);
         }
         self.under(table, shown.len());
     }

@@ -181,7 +181,9 @@ fn undrawn(all: usize, what: &str) -> Option<Piece> {
 fn defect(index: usize, view: &Arc<DamageView>) -> Vec<Piece> {
     let part = |what: &str, note: &str, draw: fn(&DamageView, usize, Layout) -> Picture| {
         let draw = move |view: &DamageView, layout| draw(view, index, layout);
-        Piece::Figure(Figure::still(format!("damage{index}{what}"), escape(&sentence(note)), view, draw))
+        // A photograph's caption names a file.
+        let caption = if what == "-photo" { escape(&sentence(note)) } else { unit_html(&sentence(note)) };
+        Piece::Figure(Figure::still(format!("damage{index}{what}"), caption, view, draw))
     };
     let mut pieces = vec![Piece::Heading(view.title.clone())];
     if let Some(photo) = view.photo.as_ref().filter(|_| damage_photo(view, index, Layout::Wide).is_some()) {

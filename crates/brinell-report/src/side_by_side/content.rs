@@ -4,7 +4,7 @@ use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, wav
 use super::headline::{Headline, compared_headline};
 use crate::fact::Fact;
 use crate::frame::THINNED;
-use crate::number::{bracketed, capital, short, shown_unit, twelve_digits};
+use crate::number::{beside, bracketed, capital, raised, short, shown_unit, twelve_digits};
 use crate::page::{Chapter, Page};
 use crate::quantity::value_text;
 use crate::tables::Table;
@@ -122,13 +122,15 @@ fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
             continue;
         };
         let mut note = format!("of {}", names[0]);
-        if let Some((low, high)) = first.interval {
-            note = format!("{note}; 95 %, scatter only: {} to {}", short(low, 3), short(high, 3));
+        let mut value = short(first.value, 3);
+        if let Some(ends) = first.interval {
+            let [fine, low, high] = beside(first.value, ends);
+            (value, note) = (fine, format!("{note}; 95 %, scatter only: {low} to {high}"));
         }
         for (name, more) in rest {
             note = format!("{note}; {name}: {}", with_interval(*more));
         }
-        facts.push(Fact::new(&one.words, format!("{name}: {} ×", short(first.value, 3)), "", note));
+        facts.push(Fact::new(&one.words, format!("{name}: {value} ×"), "", note));
     }
     facts
 }
@@ -231,11 +233,6 @@ fn cut(text: &str) -> String {
     cut + "…"
 }
 
-/// A unit as a table's cell shows it.
-fn unit(unit: &str) -> String {
-    shown_unit(unit).replace("^2", "²")
-}
-
 /// Values of each run, and ratios to the baseline's.
 fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table {
     let of_channels = id == INDICATORS;
@@ -247,7 +244,7 @@ fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table
     let rows = rows.iter().map(|c| {
         let mut row = vec![c.name.clone()];
         row.extend(of_channels.then(|| signal(&c.name).to_owned()));
-        row.push(unit(&c.unit));
+        row.push(raised(shown_unit(&c.unit)));
         let value = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), value_text);
         row.extend(c.of.iter().map(value));
         let ratio = |r: &Option<Ratio>| r.map_or("–".into(), with_interval);
@@ -272,5 +269,5 @@ fn signal(name: &str) -> &'static str {
 }
 
 fn with_interval(ratio: Ratio) -> String {
-    bracketed(short(ratio.value, 3), ratio.interval)
+    bracketed(ratio.value, 3, ratio.interval)
 }

@@ -1,7 +1,7 @@
 //! What is said of the plots of a sweep.
 
 use super::plot::{IndicatorLine, IndicatorPlot};
-use crate::number::significant;
+use crate::number::{raised, significant};
 
 /// Smallest and largest value of the first plot, and where they are.
 pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
@@ -30,7 +30,7 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
             (2.., false, true) => format!(", {line}"),
             _ => String::new(),
         };
-        let unit = plot.unit.replace("^2", "²");
+        let unit = raised(&plot.unit);
         format!("{} {unit} ({} = {at}{beside})", significant(*value, 3), plot.x_label)
     };
     format!("{}: from {} to {}.", plot.label, described(least), described(most))

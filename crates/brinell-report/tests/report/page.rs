@@ -4,7 +4,9 @@ use super::checks::{check, check_pictures};
 use super::sample::{Report, filled, ordinary};
 use brinell::document::{Origin, Provenance};
 use brinell_damage::Photo;
-use brinell_report::{Fact, Layout, MinMax, detail_window, headline, html, load_distribution, overview, pictures};
+use brinell_report::{
+    Chapter, Fact, Layout, MinMax, Page, Table, detail_window, headline, html, load_distribution, overview, pictures,
+};
 use proptest::prelude::*;
 
 const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
@@ -43,11 +45,44 @@ fn regress_the_result_comes_first_and_assumptions_before_statements() {
     report.signals.order_markers = report.signals.markers.clone();
     let page = html(&report.page());
     check(&page);
+    // Names may be broken after their points.
+    let page = page.replace("<wbr>", "");
     let at = |words: &str| page.find(words).unwrap_or_else(|| panic!("{words}"));
     assert!(at("<p class=\"lead\">3 × 4 mm defect &lt;b&gt;") < at("id=\"waveform\""));
     assert!(at("<code>assumed.key") < at("<summary>1 stated values"));
     assert!(at("<summary>1 stated values") < at("<code>stated.key"));
     assert!(at("data-chart=\"orders\"") < at("id=\"spectrogram\""));
+}
+
+/// Every number of a card says what it is, a unit is no value, and names break after points and underscores.
+#[test]
+fn regress_cards_say_what_their_numbers_are() {
+    let text = |row: [&str; 5]| row.map(String::from).to_vec();
+    let heads = ["#Point", "Key", "Unit", "#one.rms (m/s^2)", "#two"];
+    let table = Table::new("Numbers", heads, [text(["1", "a.b_c", "m/s^2", "-1.5 (-2 to -1)", "3"])], "By `run -x`.");
+    let page = Page { chapters: vec![Chapter::table("numbers", "Numbers", table)], ..Page::default() };
+    let page = html(&page);
+    for part in [
+        "<th scope=\"row\" data-head=\"Point\">1</th>",
+        "<td class=\"unit\" data-head=\"Unit\">m/s²</td>",
+        "data-head=\"one.rms (m/s²)\">−1.5 <span class=\"half\">(−2 to −1)</span></td>",
+        "<th class=\"number\">one.<wbr>rms (m/s²)</th>",
+        "By <code>run -x</code>.",
+    ] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+}
+
+/// On a narrow page a row of a table that has no room there is a card.
+#[test]
+fn regress_a_table_too_wide_for_a_phone_is_cards() {
+    let of = |interval: &str| {
+        let row = ["Skewness", "0.05428", interval, "mm/s"].map(String::from).to_vec();
+        let table = Table::new("Levels", ["Indicator", "#Value", "#95 % interval", "Unit"], [row], "");
+        html(&Page { chapters: vec![Chapter::table("levels", "Levels", table)], ..Page::default() })
+    };
+    assert!(of("0.03182 to 0.07673").contains("<table class=\"stack\">"));
+    assert!(of("1 to 2").contains("<table><thead>"));
 }
 
 /// Without the damage: in grey behind, and a curve of its own for the page's script and for files.
