@@ -41,7 +41,8 @@ fn regress_files_and_variants_come_side_by_side() {
     assert!(number("low") < number("value") && number("value") < number("high"));
     assert!(rms["ratios"].get("actual").is_none());
     assert!(json["scenarios"]["lumped"].as_str().unwrap().contains("model = \"lumped\""));
-    let page = fs::read_to_string(out.join("compare.html")).unwrap();
+    // Names may break after their points on a phone.
+    let page = fs::read_to_string(out.join("compare.html")).unwrap().replace("<wbr>", "");
     for part in [
         "What differs",
         "simulation.model",
