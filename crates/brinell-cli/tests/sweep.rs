@@ -169,7 +169,8 @@ fn regress_a_bad_point_is_a_row_and_the_others_run() {
     assert_eq!(status, ["complete", "failed", "complete"]);
     assert!(rows[2][column("reason")].contains("defects.0.depth_um = -1"));
     assert_eq!(rows[2][column("sensor_ax.rms")], "");
-    let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
+    // Names may break after their points on a phone.
+    let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap().replace("<wbr>", "");
     assert!(page.contains("Points that failed") && page.contains("2: defects.0.depth_um = -1"));
     // What is said of the plots.
     assert!(page.contains("class=\"lead\">RMS of sensor_ax: from ") && page.contains("Crosses on the axis: no value."));
