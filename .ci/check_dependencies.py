@@ -1,6 +1,6 @@
 """Licences, sources and version requirements of everything in Cargo.lock, as deny.toml has them: check_dependencies.py
 
-The first three of cargo-deny's checks, which takes minutes to build; `cargo deny check` reads the same file and says the same.
+What the first three of cargo-deny's checks are for, which takes minutes to build; `cargo deny check` reads the same file.
 """
 
 import json

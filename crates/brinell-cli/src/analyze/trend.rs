@@ -56,15 +56,13 @@ const MARKS: &str = "Bars: 95 % intervals; rings: values without one; crosses on
 
 /// Of the page: what changed, and the levels over time.
 pub(super) fn chapters(trend: &Trend) -> Vec<Chapter> {
-    let with_limits = trend.levels.iter().any(|of| !trend.limit_words(of).is_empty());
-    let changes = rows(trend).zip(&trend.levels).map(|([name, first, last, words], of)| {
-        let limits = with_limits.then(|| trend.limit_words(of).join("; "));
-        [name, first, last, words].into_iter().chain(limits).collect()
-    });
+    let limits: Vec<String> = trend.levels.iter().map(|of| trend.limit_words(of).join("; ")).collect();
+    let columns = if limits.iter().all(String::is_empty) { 4 } else { 5 };
+    let changes = rows(trend).zip(limits).map(|(row, limits)| row.into_iter().chain([limits]).take(columns).collect());
     let note = lead(trend)
         + ". When a limit is reached is an extrapolation, which holds if growth goes on as it is: no forecast of life.";
     let headings = ["Level", "#First", "#Last", "Trend", "Limits"];
-    let table = Table::new("What changed", headings.into_iter().take(if with_limits { 5 } else { 4 }), changes, note);
+    let table = Table::new("What changed", headings.into_iter().take(columns), changes, note);
     let mut pieces = vec![Piece::Note(MARKS.into())];
     let (scores, levels): (Vec<&Followed>, Vec<&Followed>) = trend.levels.iter().partition(|of| !of.level.by_factors);
     pieces.extend(levels.into_iter().map(|of| plot(trend, &of.level.name, &of.level.label, &[of])).map(Piece::Trend));

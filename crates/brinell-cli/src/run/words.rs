@@ -1,12 +1,12 @@
 //! What is printed of a run.
 
 use crate::say::{one_line, short};
-use brinell::observe::{ChannelStatistics, DefectLine, Findings, Kind};
+use brinell::observe::{ChannelStatistics, DefectLine};
 use brinell::plausibility::{converted, doubtful, unsettled};
 use brinell::result::Parts;
 use brinell::result::fields;
 use brinell::signal::Indicator;
-use brinell::simulate::{End, Simulation};
+use brinell::simulate::End;
 use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
@@ -32,8 +32,8 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
     printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
-    printed.extend(sensor_lines(simulation, findings));
-    printed.extend(healthy_lines(parts));
+    printed.extend(parts.read().filter_map(sensor_line));
+    printed.extend(parts.read().filter_map(|channel| healthy_line(parts, channel)));
     printed.extend(spread.map(super::spread::lines).into_iter().flatten());
     let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
@@ -58,59 +58,40 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     printed
 }
 
-/// What the sensor read, a line for each of its channels.
-fn sensor_lines(simulation: &Simulation, findings: &Findings) -> Vec<String> {
-    let mut printed = Vec::new();
-    for channel in &findings.channels {
-        let is_looked_at = simulation.is_sensor(&channel.name) || channel.name == findings.sensor;
-        if channel.kind != Kind::AntiAliased || !is_looked_at {
-            continue;
-        }
-        let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {
-            continue;
-        };
-        let interval = rms
-            .interval
-            .map_or(String::new(), |i| format!(" (95 %, scatter only: {} to {})", short(i.low, 3), short(i.high, 3)));
-        let [mean, of] = match channel.blocks.revolutions() {
-            0 => ["", "of the record"],
-            _ => ["mean ", "of a revolution"],
-        };
-        let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
-        printed.push(format!(
-            "  {}: RMS {}{interval} {}, {mean}peak to peak {of} {}, kurtosis {}",
-            channel.name,
-            short(rms.value, 3),
-            channel.unit,
-            other(Indicator::PeakToPeak),
-            other(Indicator::Kurtosis),
-        ));
-    }
-    printed
+/// What the sensor read along an axis.
+fn sensor_line(channel: &ChannelStatistics) -> Option<String> {
+    let rms = channel.blocks.estimate(Indicator::Rms)?;
+    let interval = rms
+        .interval
+        .map_or(String::new(), |i| format!(" (95 %, scatter only: {} to {})", short(i.low, 3), short(i.high, 3)));
+    let [mean, of] = match channel.blocks.revolutions() {
+        0 => ["", "of the record"],
+        _ => ["mean ", "of a revolution"],
+    };
+    let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
+    Some(format!(
+        "  {}: RMS {}{interval} {}, {mean}peak to peak {of} {}, kurtosis {}",
+        channel.name,
+        short(rms.value, 3),
+        channel.unit,
+        other(Indicator::PeakToPeak),
+        other(Indicator::Kurtosis),
+    ))
 }
 
 /// What the sensor read beside what it reads of the healthy bearing, along each axis.
-fn healthy_lines(parts: &Parts) -> Vec<String> {
-    let Some(healthy) = parts.healthy else {
-        return Vec::new();
-    };
-    let line = |channel: &ChannelStatistics| {
-        let name = &channel.name;
-        let (rms, ratio) = (healthy.rms_of(name)?, parts.findings.over_healthy_of(healthy, name)?);
-        let interval = ratio.interval.map_or(String::new(), |(low, high)| {
-            format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3))
-        });
-        // Else a reader looks for a mistake.
-        let why =
-            if ratio.value < 1.0 { ": here the load that passes from roller to roller counts for more" } else { "" };
-        let (rms, ratio, unit) = (short(rms.value, 3), short(ratio.value, 3), channel.unit);
-        Some(format!("  {name} without the damage: RMS {rms} {unit}; damaged over healthy {ratio}{interval}{why}"))
-    };
-    let read = parts.findings.channels.iter().filter(|channel| {
-        let is_read = parts.simulation.is_sensor(&channel.name) || channel.name == parts.findings.sensor;
-        is_read && channel.kind == Kind::AntiAliased
-    });
-    read.filter_map(line).collect()
+fn healthy_line(parts: &Parts, channel: &ChannelStatistics) -> Option<String> {
+    let (rms, ratio, why) = parts.beside_healthy(&channel.name)?;
+    let interval = ratio
+        .interval
+        .map_or(String::new(), |(low, high)| format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3)));
+    Some(format!(
+        "  {} without the damage: RMS {} {}; damaged over healthy {}{interval}{why}",
+        channel.name,
+        short(rms.value, 3),
+        channel.unit,
+        short(ratio.value, 3),
+    ))
 }
 
 /// What the envelope has of a defect.

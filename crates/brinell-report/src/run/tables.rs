@@ -5,7 +5,7 @@ use crate::Fact;
 use crate::number::short;
 use brinell::accuracy::METHOD;
 use brinell::observe::passes::place;
-use brinell::observe::{ChannelStatistics, DefectLine, Kind};
+use brinell::observe::{ChannelStatistics, DefectLine};
 use brinell::result::Parts;
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
@@ -62,7 +62,13 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
         };
         format!("; damaged {words}{interval}")
     });
-    let others: String = parts.findings.channels.iter().filter_map(|channel| other_axis(parts, channel)).collect();
+    let other_axis = |channel: &ChannelStatistics| {
+        let (rms, ratio, why) = parts.beside_healthy(&channel.name)?;
+        let (rms, ratio) = (short(rms.value, 3), short(ratio.value, 2));
+        Some(format!("; {} {rms} m/s², damaged {ratio} times that{why}", channel.name))
+    };
+    let others: String =
+        parts.read().filter(|channel| channel.name != parts.findings.sensor).filter_map(other_axis).collect();
     Some(Fact::new(
         if parts.loaded.scenario.machine.is_some() {
             "RMS of the healthy machine"
@@ -73,17 +79,6 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
         "m/s^2",
         format!("the same scenario without its damage{times}{others}"),
     ))
-}
-
-/// The same along another axis of the sensor.
-fn other_axis(parts: &Parts, channel: &ChannelStatistics) -> Option<String> {
-    let name = &channel.name;
-    let is_other =
-        channel.kind == Kind::AntiAliased && *name != parts.findings.sensor && parts.simulation.is_sensor(name);
-    let healthy = parts.healthy.filter(|_| is_other)?;
-    let (rms, ratio) = (healthy.rms_of(name)?, parts.findings.over_healthy_of(healthy, name)?);
-    let why = if ratio.value < 1.0 { ": here the load that passes from roller to roller counts for more" } else { "" };
-    Some(format!("; {name} {} m/s², damaged {} times that{why}", short(rms.value, 3), short(ratio.value, 2)))
 }
 
 /// A defect's frequency.

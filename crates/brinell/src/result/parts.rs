@@ -1,8 +1,10 @@
 //! A run with all that is said of it: what every teller of results, file, page and terminal, is given.
 
 use crate::document::Loaded;
-use crate::observe::Findings;
+use crate::observe::{ChannelStatistics, Findings, Kind};
 use crate::plausibility::{Beforehand, after};
+use crate::signal::Estimate;
+use crate::signal::ratio::Ratio;
 use crate::simulate::{Outcome, Simulation};
 
 /// A run, before and after.
@@ -28,5 +30,23 @@ impl Parts<'_> {
         let Parts { loaded, simulation, outcome, findings, beforehand, .. } = *self;
         let before = loaded.warnings.iter().chain(&beforehand.warnings);
         before.map(ToString::to_string).chain(after(&loaded.scenario, simulation, outcome, findings)).collect()
+    }
+
+    /// What the sensor reads, by axis, in the order of the channels.
+    pub fn read(&self) -> impl Iterator<Item = &ChannelStatistics> {
+        self.findings.channels.iter().filter(|channel| {
+            let is_read = self.simulation.is_sensor(&channel.name) || channel.name == self.findings.sensor;
+            is_read && channel.kind == Kind::AntiAliased
+        })
+    }
+
+    /// RMS of an anti-aliased channel without the damage, in its unit, and how many times that it is with it; last why, where it is less:
+    /// empty, or after a colon. Else a reader looks for a mistake.
+    pub fn beside_healthy(&self, channel: &str) -> Option<(Estimate, Ratio, &'static str)> {
+        let healthy = self.healthy?;
+        let (rms, ratio) = (healthy.rms_of(channel)?, self.findings.over_healthy_of(healthy, channel)?);
+        let why =
+            if ratio.value < 1.0 { ": here the load that passes from roller to roller counts for more" } else { "" };
+        Some((rms, ratio, why))
     }
 }

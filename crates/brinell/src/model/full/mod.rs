@@ -29,8 +29,8 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Kernel::Avx2 => unsafe { with_avx2(model, t, y, a, ws) },
-        Kernel::Plain => plain(model, t, y, a, ws),
-        _ => portable(model, t, y, a, ws),
+        Kernel::Plain => equations::<f64>(model, t, y, a, ws),
+        _ => equations::<Portable>(model, t, y, a, ws),
     }
 }
 
@@ -44,17 +44,6 @@ fn with_avx512(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspa
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
     equations::<Avx2>(model, t, y, a, ws);
-}
-
-// One function each: together they take the compiler twice as long.
-#[inline(never)]
-fn plain(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
-    equations::<f64>(model, t, y, a, ws);
-}
-
-#[inline(never)]
-fn portable(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
-    equations::<Portable>(model, t, y, a, ws);
 }
 
 /// Accelerations at (t, y).
