@@ -16,7 +16,8 @@ pub enum Kernel {
     /// One roller at a time, with the standard library's sine, exponential and tanh. Several times slower than the
     /// others.
     Plain,
-    /// Whatever the target always has: SSE2 on x86-64, NEON on 64-bit Arm.
+    /// What every processor of the target computes to the same bits: as by SSE2 on x86-64, with the registers of AVX2
+    /// where it has them; NEON on 64-bit Arm.
     Portable,
     /// AVX2 and FMA.
     Avx2,

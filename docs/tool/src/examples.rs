@@ -14,6 +14,7 @@ use mdbook_driver::errors::Result;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
 /// Where a scenario of the text lies while it is checked, unless its block names a file.
 const FILE: &str = "examples/from-the-book.toml";
@@ -24,6 +25,8 @@ pub struct Held {
     pub scenarios: usize,
     pub commands: usize,
     pub pictures: usize,
+    /// Seconds of each command, with its page.
+    pub times: Vec<(f64, String)>,
 }
 
 /// Tries the pages whose path contains `only`; all of them where that is empty. What is made of pictures replaces them
@@ -77,7 +80,9 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path, only: &str, renewed: bool
                 "console" => {
                     for (command, shown) in steps(&block) {
                         held.commands += 1;
+                        let start = Instant::now();
                         let output = run(command)?;
+                        held.times.push((start.elapsed().as_secs_f64(), format!("{name}: $ {command}")));
                         let printed = String::from_utf8_lossy(&output.stdout);
                         let lines: Vec<&str> = printed.lines().map(str::trim_end).collect();
                         if !output.status.success() || !matches(&shown, &lines) {

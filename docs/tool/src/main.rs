@@ -19,6 +19,9 @@ use mdbook_driver::errors::{Error, Result};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Commands whose times are told.
+const SLOWEST: usize = 12;
+
 fn main() -> Result<()> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -51,11 +54,16 @@ fn try_examples(docs: &Path, only: &str, renewed: bool) -> Result<()> {
     match std::env::var_os("BRINELL") {
         Some(command) => {
             let command = PathBuf::from(command).canonicalize()?;
-            let held = examples::check(docs, &command, only, renewed)?;
+            let mut held = examples::check(docs, &command, only, renewed)?;
             println!(
                 "{} scenarios sound, {} console examples as shown, {} pictures as their commands make them",
                 held.scenarios, held.commands, held.pictures
             );
+            held.times.sort_by(|a, b| b.0.total_cmp(&a.0));
+            println!("{:.0} s in commands, of these", held.times.iter().map(|(seconds, _)| seconds).sum::<f64>());
+            for (seconds, line) in held.times.iter().take(SLOWEST) {
+                println!("{seconds:6.1}  {line}");
+            }
         }
         None => println!("examples not checked: BRINELL names no command"),
     }

@@ -11,7 +11,7 @@ macro_rules! dispatched {
         pub fn $name<const N: usize>($($arg: $type),*) $(-> $out)? {
             #[cfg(target_arch = "x86_64")]
             {
-                use super::{Avx2, Avx512};
+                use super::{Avx2, Avx512, Rounded};
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
                 fn avx512<const N: usize>($($arg: $type),*) $(-> $out)? {
                     $body::<Avx512, N>($($arg),*)
@@ -20,11 +20,17 @@ macro_rules! dispatched {
                 fn avx2<const N: usize>($($arg: $type),*) $(-> $out)? {
                     $body::<<Avx2 as Lanes>::Pair, N>($($arg),*)
                 }
+                #[target_feature(enable = "avx2")]
+                fn rounded<const N: usize>($($arg: $type),*) $(-> $out)? {
+                    $body::<Rounded, N>($($arg),*)
+                }
                 match Kernel::in_use() {
                     // SAFETY: the kernel in use is one that the processor has the instructions of.
                     Kernel::Avx512 => return unsafe { avx512::<N>($($arg),*) },
                     // SAFETY: as above.
                     Kernel::Avx2 => return unsafe { avx2::<N>($($arg),*) },
+                    // SAFETY: the processor has been asked.
+                    _ if is_x86_feature_detected!("avx2") => return unsafe { rounded::<N>($($arg),*) },
                     Kernel::Plain | Kernel::Portable => {}
                 }
             }
@@ -194,6 +200,31 @@ mod tests {
         let mut bits = [0xff; 3];
         positive([&list], [&mut bits]);
         assert_eq!(bits, [1 << 3, 1 | 1 << 7, 0]);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn prop_sums_have_the_same_bits_with_avx2() {
+        use crate::lanes::Rounded;
+        #[target_feature(enable = "avx2")]
+        fn rounded(weight: &[f64], list: &[f64], factors: [f64; 2], out: &mut [f64]) -> [f64; 2] {
+            blend_lanes::<Rounded, 2>(out, factors, [weight, list]);
+            let [product] = inner_products_lanes::<Rounded, 1>(weight, [list]);
+            [weighted_square_lanes::<Rounded, 2>(weight, factors, [weight, list]), product]
+        }
+        if !is_x86_feature_detected!("avx2") {
+            return;
+        }
+        for n in [1, 3, 8, 16, 21, 240] {
+            let (weight, list): (Vec<f64>, Vec<f64>) = (0..n).map(|k| f64::from(k).sin_cos()).unzip();
+            let (factors, mut out, mut wide) = ([0.3, -1.7], vec![0.0; weight.len()], vec![0.0; weight.len()]);
+            blend_lanes::<Portable, 2>(&mut out, factors, [&weight, &list]);
+            let [product] = inner_products_lanes::<Portable, 1>(&weight, [&list]);
+            let square = weighted_square_lanes::<Portable, 2>(&weight, factors, [&weight, &list]);
+            // SAFETY: the processor has been asked.
+            assert_eq!([square, product], unsafe { rounded(&weight, &list, factors, &mut wide) });
+            assert_eq!(out, wide);
+        }
     }
 
     #[test]

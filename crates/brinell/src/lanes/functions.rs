@@ -207,10 +207,14 @@ mod tests {
             let mut all = vec![("portable", portable)];
             #[cfg(target_arch = "x86_64")]
             {
-                use super::super::{Avx2, Avx512};
+                use super::super::{Avx2, Avx512, Rounded};
                 #[target_feature(enable = "avx2,fma")]
                 fn avx2(x: Group) -> Group {
                     in_groups(x, |x: Avx2| $function(x))
+                }
+                #[target_feature(enable = "avx2")]
+                fn rounded(x: Group) -> Group {
+                    in_groups(x, |x: Rounded| $function(x))
                 }
                 #[target_feature(enable = "avx2,fma")]
                 fn avx2_pair(x: Group) -> Group {
@@ -221,6 +225,9 @@ mod tests {
                     in_groups(x, |x: Avx512| $function(x))
                 }
                 // SAFETY: asked for at once.
+                if is_x86_feature_detected!("avx2") {
+                    all.push(("rounded by avx2", |x| unsafe { rounded(x) }));
+                }
                 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
                     all.push(("avx2", |x| unsafe { avx2(x) }));
                     all.push(("a pair of avx2", |x| unsafe { avx2_pair(x) }));

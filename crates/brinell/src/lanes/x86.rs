@@ -1,4 +1,5 @@
-//! Lanes in a register of x86-64: eight numbers with AVX-512, four with AVX2.
+//! Lanes in a register of x86-64: eight numbers with AVX-512, four with AVX2. [`Rounded`] computes what the portable
+//! lanes do, to the bit.
 //!
 //! Values of these types must only be used in functions compiled for their instructions; the equations of motion are
 //! entered through such functions alone, after the processor has been asked.
@@ -189,82 +190,114 @@ impl Lanes for Avx512 {
 }
 
 /// Four numbers in one register of AVX2.
+macro_rules! four {
+    ($type:ident, $pair:ident; times_plus $times_plus:ident minus_times $minus_times:ident) => {
+        operators! {
+            $type __m256d __m256i,
+            Add add |a: Self, b: Self| Self(_mm256_add_pd(a.0, b.0));
+            Sub sub |a: Self, b: Self| Self(_mm256_sub_pd(a.0, b.0));
+            Mul mul |a: Self, b: Self| Self(_mm256_mul_pd(a.0, b.0));
+            Div div |a: Self, b: Self| Self(_mm256_div_pd(a.0, b.0));
+        }
+
+        // SAFETY of every block: see the module.
+        impl Lanes for $type {
+            type Pair = $pair;
+            alike! {
+                4; splat _mm256_set1_pd new _mm256_loadu_pd array _mm256_storeu_pd times_plus $times_plus minus_times $minus_times
+                at_least _mm256_max_pd at_most _mm256_min_pd sqrt _mm256_sqrt_pd
+            }
+
+            #[inline(always)]
+            fn sum(self) -> f64 {
+                unsafe { sum_of_four(self.0) }
+            }
+
+            #[inline(always)]
+            fn if_above(self, other: Self, x: Self, y: Self) -> Self {
+                unsafe {
+                    let above = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
+                    Self(_mm256_blendv_pd(y.0, x.0, above))
+                }
+            }
+
+            #[inline(always)]
+            fn above(self, other: Self) -> u8 {
+                unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0)) as u8 }
+            }
+
+            #[inline(always)]
+            fn and_bits(self, bits: u64) -> Self {
+                self.and(Self::splat(f64::from_bits(bits)))
+            }
+
+            #[inline(always)]
+            fn or_bits(self, bits: u64) -> Self {
+                unsafe { Self(_mm256_or_pd(self.0, Self::splat(f64::from_bits(bits)).0)) }
+            }
+
+            #[inline(always)]
+            fn and(self, other: Self) -> Self {
+                unsafe { Self(_mm256_and_pd(self.0, other.0)) }
+            }
+
+            #[inline(always)]
+            fn xor(self, other: Self) -> Self {
+                unsafe { Self(_mm256_xor_pd(self.0, other.0)) }
+            }
+
+            #[inline(always)]
+            fn add_bits(self, bits: u64) -> Self {
+                unsafe { Self::from_int(_mm256_add_epi64(self.int(), _mm256_set1_epi64x(bits as i64))) }
+            }
+
+            #[inline(always)]
+            fn minus_bits(self) -> Self {
+                unsafe { Self::from_int(_mm256_sub_epi64(_mm256_setzero_si256(), self.int())) }
+            }
+
+            #[inline(always)]
+            fn shift_up<const N: i32>(self) -> Self {
+                unsafe { Self::from_int(_mm256_slli_epi64::<N>(self.int())) }
+            }
+
+            #[inline(always)]
+            fn shift_down<const N: i32>(self) -> Self {
+                unsafe { Self::from_int(_mm256_srli_epi64::<N>(self.int())) }
+            }
+        }
+    };
+}
+
+/// Four numbers in one register of AVX2.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Avx2(__m256d);
 
-operators! {
-    Avx2 __m256d __m256i,
-    Add add |a: Self, b: Self| Self(_mm256_add_pd(a.0, b.0));
-    Sub sub |a: Self, b: Self| Self(_mm256_sub_pd(a.0, b.0));
-    Mul mul |a: Self, b: Self| Self(_mm256_mul_pd(a.0, b.0));
-    Div div |a: Self, b: Self| Self(_mm256_div_pd(a.0, b.0));
+four!(Avx2, Avx2Pair; times_plus _mm256_fmadd_pd minus_times _mm256_fnmadd_pd);
+
+/// Four numbers in one register of AVX2 that computes as [`Portable`](super::Portable) does: every product is rounded,
+/// and sums come in the same order. Whoever makes one has asked the processor for AVX2.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rounded(__m256d);
+
+four!(Rounded, Self; times_plus product_plus minus_times minus_product);
+
+/// a b + c, each rounded.
+///
+/// # Safety
+/// As for the module.
+#[inline(always)]
+unsafe fn product_plus(a: __m256d, b: __m256d, c: __m256d) -> __m256d {
+    unsafe { _mm256_add_pd(_mm256_mul_pd(a, b), c) }
 }
 
-// SAFETY of every block: see the module.
-impl Lanes for Avx2 {
-    type Pair = Avx2Pair;
-    alike! {
-        4; splat _mm256_set1_pd new _mm256_loadu_pd array _mm256_storeu_pd times_plus _mm256_fmadd_pd minus_times _mm256_fnmadd_pd
-        at_least _mm256_max_pd at_most _mm256_min_pd sqrt _mm256_sqrt_pd
-    }
-
-    #[inline(always)]
-    fn sum(self) -> f64 {
-        unsafe { sum_of_four(self.0) }
-    }
-
-    #[inline(always)]
-    fn if_above(self, other: Self, x: Self, y: Self) -> Self {
-        unsafe {
-            let above = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
-            Self(_mm256_blendv_pd(y.0, x.0, above))
-        }
-    }
-
-    #[inline(always)]
-    fn above(self, other: Self) -> u8 {
-        unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0)) as u8 }
-    }
-
-    #[inline(always)]
-    fn and_bits(self, bits: u64) -> Self {
-        self.and(Self::splat(f64::from_bits(bits)))
-    }
-
-    #[inline(always)]
-    fn or_bits(self, bits: u64) -> Self {
-        unsafe { Self(_mm256_or_pd(self.0, Self::splat(f64::from_bits(bits)).0)) }
-    }
-
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        unsafe { Self(_mm256_and_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        unsafe { Self(_mm256_xor_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn add_bits(self, bits: u64) -> Self {
-        unsafe { Self::from_int(_mm256_add_epi64(self.int(), _mm256_set1_epi64x(bits as i64))) }
-    }
-
-    #[inline(always)]
-    fn minus_bits(self) -> Self {
-        unsafe { Self::from_int(_mm256_sub_epi64(_mm256_setzero_si256(), self.int())) }
-    }
-
-    #[inline(always)]
-    fn shift_up<const N: i32>(self) -> Self {
-        unsafe { Self::from_int(_mm256_slli_epi64::<N>(self.int())) }
-    }
-
-    #[inline(always)]
-    fn shift_down<const N: i32>(self) -> Self {
-        unsafe { Self::from_int(_mm256_srli_epi64::<N>(self.int())) }
-    }
+/// c - a b, each rounded.
+///
+/// # Safety
+/// As for the module.
+#[inline(always)]
+unsafe fn minus_product(a: __m256d, b: __m256d, c: __m256d) -> __m256d {
+    unsafe { _mm256_sub_pd(c, _mm256_mul_pd(a, b)) }
 }
 
 /// Eight numbers in two registers of AVX2: the two share constants and do not wait for each other.

@@ -16,7 +16,7 @@ mod waves;
 use super::{Kernel, Model, Workspace};
 use crate::defect::Side;
 #[cfg(target_arch = "x86_64")]
-use crate::lanes::{Avx2, Avx512};
+use crate::lanes::{Avx2, Avx512, Rounded};
 use crate::lanes::{Lanes, Portable};
 use sums::Turn;
 
@@ -29,6 +29,9 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Kernel::Avx2 => unsafe { with_avx2(model, t, y, a, ws) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: the processor has been asked.
+        Kernel::Portable if is_x86_feature_detected!("avx2") => unsafe { with_rounded(model, t, y, a, ws) },
         Kernel::Plain => equations::<f64>(model, t, y, a, ws),
         _ => equations::<Portable>(model, t, y, a, ws),
     }
@@ -44,6 +47,13 @@ fn with_avx512(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspa
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
     equations::<Avx2>(model, t, y, a, ws);
+}
+
+/// What [`Portable`] computes, to the bit.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn with_rounded(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
+    equations::<Rounded>(model, t, y, a, ws);
 }
 
 /// Accelerations at (t, y).
@@ -70,4 +80,62 @@ pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64
     }
     ws.torques = sums.torques;
     ws.power = sums.power;
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::*;
+
+    /// What a machine without AVX2 prints, one with it prints: the book's numbers and pictures hang on it.
+    #[test]
+    fn prop_the_portable_kernel_has_the_same_bits_with_avx2() {
+        if !is_x86_feature_detected!("avx2") {
+            return;
+        }
+        let damage = r#"
+            bearing.waviness = { amplitude_um = 0.5, exponent = 1.5, waves = [2, 100] }
+            [operation]
+            speed_rpm = 1800
+            load_n = [300, -900]
+            [[defects]]
+            on = "outer-raceway"
+            center_deg = -70
+            depth_um = 20
+            shape = { rectangle = { length_mm = 3, width_mm = 4 } }
+            [[defects]]
+            on = "inner-raceway"
+            center_deg = -90
+            depth_um = 20
+            shape = { circle = { diameter_mm = 3 } }
+        "#;
+        for (bearing, more) in
+            [("NN3007", "laws = \"li2023\""), ("NU206", ""), ("NU206", "model = \"tilting\""), ("6205", "")]
+        {
+            let text = format!("bearing.preset = \"{bearing}\"\n{damage}\n[simulation]\n{more}\n");
+            let scenario = crate::document::read(&text, &[]).unwrap().scenario;
+            let model = Model::new(&scenario).unwrap();
+            let dof = model.layout.dof();
+            let start = crate::start::state(&model).unwrap();
+            let (mut same, mut wide) =
+                (Workspace::with_kernel(&model, Kernel::Portable), Workspace::with_kernel(&model, Kernel::Portable));
+            let mut touched = 0;
+            for step in 0..400 {
+                let t = 1e-4 * f64::from(step);
+                // Parts displaced by some um and mrad, each by its own way.
+                let y: Vec<f64> = (start.iter().enumerate())
+                    .map(|(k, y)| {
+                        y + (if k < dof { 2e-6 } else { 1e-2 }) * (1.7 * k as f64 + 0.9 * f64::from(step)).sin()
+                    })
+                    .collect();
+                let (mut a, mut b) = (vec![0.0; dof], vec![0.0; dof]);
+                equations::<Portable>(&model, t, &y, &mut a, &mut same);
+                // SAFETY: the processor has been asked.
+                unsafe { with_rounded(&model, t, &y, &mut b, &mut wide) };
+                touched += usize::from(same.max_elastic()[0] > 0.0);
+                let bits = |list: &[f64]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(&a), bits(&b), "{bearing} {more} at {t}");
+            }
+            assert!(touched > 100, "{bearing} {more}: nothing is pressed");
+        }
+    }
 }
