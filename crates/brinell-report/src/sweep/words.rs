@@ -23,7 +23,8 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
     let described = |(value, x, line): &(f64, f64, String)| {
         let at = match plot.x_names.get(*x as usize) {
             Some(name) => name.clone(),
-            None => significant(*x, 4),
+            None if plot.x_unit.is_empty() => significant(*x, 4),
+            None => format!("{} {}", significant(*x, 4), raised(&plot.x_unit)),
         };
         let beside = match (plot.lines.len(), line.is_empty(), plot.legend.is_empty()) {
             (2.., false, false) => format!(", {} = {line}", plot.legend),
