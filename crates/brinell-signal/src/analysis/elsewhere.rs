@@ -125,9 +125,7 @@ impl Search<'_> {
     }
 
     fn nearest(&self, frequency: f64) -> Option<Nearest> {
-        let raceways = (self.options.orders.defect_frequencies())
-            .filter(|(component, name, _)| *component != Component::Cage && *name != "BSF");
-        raceways
+        (self.options.orders.impacts())
             .map(|(component, name, order)| {
                 let shift = frequency / (order * self.shaft) - 1.0;
                 Nearest { component, name, shift, shaft: frequency / order, slip: lag(component, shift, self.options) }

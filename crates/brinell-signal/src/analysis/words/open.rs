@@ -1,6 +1,7 @@
 //! Why a verdict is open, in words.
 
 use super::super::drift::Drift;
+use super::super::elsewhere::Nearest;
 use super::super::family::{Family, Finding, reach};
 use super::super::together::{MAINS_HZ, REVOLUTIONS};
 use super::super::{Analysis, Component, Elsewhere, Unexplained};
@@ -172,16 +173,6 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
 
 /// Lines that no frequency of this bearing explains.
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
-    let nearest = elsewhere.nearest.map_or(String::new(), |n| {
-        format!(
-            " {} is {:.2} % {}: at {:.0} r/min{} it would be there.",
-            n.name,
-            100.0 * n.shift.abs(),
-            if n.shift > 0.0 { "lower" } else { "higher" },
-            60.0 * n.shaft,
-            n.slip.map_or(String::new(), |slip| format!(", or a cage that slips by {:.1} %,", 100.0 * slip))
-        )
-    });
     // The shaft's own lines tell its speed.
     let order = elsewhere.frequency / analysis.shaft;
     if (order - 1.0).abs() <= analysis.options.tolerance {
@@ -193,19 +184,48 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
             record_of_speed(analysis),
         );
     }
-    let record = if analysis.has_record_of_speed() { "" } else { ", and a record of the speed" };
-    let doubt = match analysis.shaft_lines.is_empty() || analysis.options.is_other_speed(analysis.shaft) {
-        true if record.is_empty() => "Is it this bearing, and the recorded speed its shaft's?",
-        true => "Are speed and bearing right?",
-        false => "Is it this bearing? The shaft's own lines agree with the speed.",
+    let recorded = analysis.has_record_of_speed();
+    let told_by_lines = !analysis.shaft_lines.is_empty() && !analysis.options.is_other_speed(analysis.shaft);
+    let (near, doubt) = match (told_by_lines, recorded) {
+        (true, _) => (nearest_frequency(elsewhere), "Is it this bearing? The shaft's own lines agree with the speed."),
+        (_, true) => (nearest_frequency(elsewhere), "Is it this bearing, and the recorded speed its shaft's?"),
+        _ => (speeds_if_its(analysis, elsewhere), "Is one of these the speed, and is it this bearing?"),
     };
     format!(
-        "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{nearest} {doubt} \
-         The frequencies of the machine's other bearings and gears would tell{record}.",
+        "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {order:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{near} {doubt} \
+         The frequencies of the machine's other bearings and gears would tell{}.",
         elsewhere.frequency,
-        elsewhere.frequency / analysis.shaft,
         100.0 * elsewhere.modulation,
+        if recorded { "" } else { ", and a record of the speed" },
     )
+}
+
+/// How far off the frequency of the bearing is that lies nearest.
+fn nearest_frequency(elsewhere: &Elsewhere) -> String {
+    elsewhere.nearest.map_or(String::new(), |n| {
+        format!(
+            " {} is {:.2} % {}: at {:.0} r/min{} it would be there.",
+            n.name,
+            100.0 * n.shift.abs(),
+            if n.shift > 0.0 { "lower" } else { "higher" },
+            60.0 * n.shaft,
+            slipping(n),
+        )
+    })
+}
+
+/// At which speeds each frequency of damage would be there.
+fn speeds_if_its(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
+    let speeds = analysis.options.orders.impacts().map(|(component, name, order)| {
+        let slip = elsewhere.nearest.filter(|n| n.component == component).map_or(String::new(), slipping);
+        format!("{name} at {:.0} r/min{slip}", 60.0 * elsewhere.frequency / order)
+    });
+    format!(" It would be {}.", speeds.collect::<Vec<_>>().join(", "))
+}
+
+/// The slip of the cage that would do the same as another speed.
+fn slipping(nearest: Nearest) -> String {
+    nearest.slip.map_or(String::new(), |slip| format!(" (or with a cage that slips by {:.1} %)", 100.0 * slip))
 }
 
 /// What is asked for where the speed is not sure: a record of it, unless there is one.
