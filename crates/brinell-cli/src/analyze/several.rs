@@ -188,7 +188,7 @@ fn write(
 }
 
 /// What the plots show.
-const TREND: &str = "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; \
+const TREND: &str = "In the order of the table; many files are numbered as in its first column. Bars: 95 % intervals; \
     rings: values without one; crosses on the axis: no value; dashed: boundaries of the zones, the scores from which a \
     family is beyond noise or high, the record that each is compared with. The score says only how far a family's \
     harmonics rise over the noise; the verdict also takes how deep they modulate the envelope, and leaves out lines that \
@@ -212,7 +212,7 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
             }
             cells
         }),
-        note(rows),
+        note(rows) + &alone(of),
     );
     let verdicts = rows.iter().flat_map(|row| {
         let sentences = row.found.iter().flat_map(|found| &found.sentences);
@@ -262,6 +262,15 @@ fn warnings(rows: &[Row]) -> Vec<String> {
 /// Files whose verdict rests on another speed than the one given.
 fn speeds_used(rows: &[Row]) -> impl Iterator<Item = (&str, &str)> {
     rows.iter().filter_map(|r| Some((r.name.as_str(), r.found.as_ref().ok()?.speed_used.as_deref()?)))
+}
+
+/// Where spectra are.
+fn alone(of: &str) -> String {
+    let which = if of == CHANNEL { "with its --channel alone" } else { "alone" };
+    format!(
+        " Spectra, envelope spectrum and each part's lines are on the page of one {}: the same command {which}.",
+        of.to_lowercase()
+    )
 }
 
 /// What holds for all rows.

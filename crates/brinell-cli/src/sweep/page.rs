@@ -271,6 +271,6 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
         0 => String::new(),
         more => format!("{more} more points are in sweep.csv. "),
     };
-    let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
+    let note = "Averages over whole revolutions, in brackets their 95 % intervals, scatter only; peaks are those of a revolution.";
     Table::new("Points", columns, rows, more + note)
 }

@@ -46,13 +46,22 @@ pub fn sweep_legend(plots: &[IndicatorPlot]) -> String {
     let points = || lines().flat_map(|line| &line.points);
     let mut parts = Vec::new();
     if points().any(|p| p.interval.is_some()) {
-        parts.push("Dots: averages over whole revolutions, with their 95 % intervals, scatter only.");
+        parts.push(
+            "Dots: averages over whole revolutions, with their 95 % intervals, scatter only: levels hang on what is assumed too \
+             (`brinell run --spread`).",
+        );
     }
     if points().any(|p| p.interval.is_none() && p.value.is_finite()) {
         parts.push("Rings: a value without an interval.");
     }
     if points().any(|p| !p.value.is_finite()) {
         parts.push("Crosses on the axis: no value.");
+    }
+    if plots.iter().any(|plot| plot.name.starts_with("envelope.")) {
+        parts.push(
+            "One line of an envelope spectrum says little of the size of damage: where entry and exit lie half a pass apart it vanishes, and its second \
+             harmonic (`--plot envelope.bpfo_x2`) rises.",
+        );
     }
     if plots.iter().any(|plot| plot.lines.len() > 1) {
         parts.push("Points are shifted a little sideways, so that their intervals do not overlap.");

@@ -185,10 +185,24 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
         );
     }
     let recorded = analysis.has_record_of_speed();
-    let told_by_lines = !analysis.shaft_lines.is_empty() && !analysis.options.is_other_speed(analysis.shaft);
-    let (near, doubt) = match (told_by_lines, recorded) {
-        (true, _) => (nearest_frequency(elsewhere), "Is it this bearing? The shaft's own lines agree with the speed."),
-        (_, true) => (nearest_frequency(elsewhere), "Is it this bearing, and the recorded speed its shaft's?"),
+    if let Some((name, which)) = elsewhere.every {
+        return format!(
+            "Cannot tell: the lines of {name} are one in {which} of a comb at {:.2} Hz, {order:.3} times the shaft's speed, and this bearing has no frequency there. \
+             {} The frequencies of the machine's other bearings and gears would tell{}.",
+            elsewhere.frequency,
+            if recorded {
+                "Is it this bearing, and the recorded speed its shaft's?"
+            } else {
+                "Are speed and bearing right?"
+            },
+            if recorded { "" } else { ", and a record of the speed" },
+        );
+    }
+    let (near, doubt) = match (lines_agree(analysis), recorded) {
+        (true, _) => {
+            (nearest_frequency(elsewhere, false), "Is it this bearing? The shaft's own lines agree with the speed.")
+        }
+        (_, true) => (nearest_frequency(elsewhere, true), "Is it this bearing, and the recorded speed its shaft's?"),
         _ => (speeds_if_its(analysis, elsewhere), "Is one of these the speed, and is it this bearing?"),
     };
     format!(
@@ -200,18 +214,32 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     )
 }
 
-/// How far off the frequency of the bearing is that lies nearest.
-fn nearest_frequency(elsewhere: &Elsewhere) -> String {
+/// How far off the frequency of the bearing is that lies nearest, and at which speed it would be there where that is open.
+fn nearest_frequency(elsewhere: &Elsewhere, speed_is_open: bool) -> String {
     elsewhere.nearest.map_or(String::new(), |n| {
-        format!(
-            " {} is {:.2} % {}: at {:.0} r/min{} it would be there.",
-            n.name,
-            100.0 * n.shift.abs(),
-            if n.shift > 0.0 { "lower" } else { "higher" },
-            60.0 * n.shaft,
-            slipping(n),
-        )
+        let at = match speed_is_open {
+            true => format!(": at {:.0} r/min{} it would be there", 60.0 * n.shaft, slipping(n)),
+            false => slipping(n),
+        };
+        let direction = if n.shift > 0.0 { "lower" } else { "higher" };
+        format!(" {} is {:.2} % {direction}{at}.", n.name, 100.0 * n.shift.abs())
     })
+}
+
+/// Whether the shaft's own lines agree with the speed given.
+fn lines_agree(analysis: &Analysis) -> bool {
+    !analysis.shaft_lines.is_empty() && !analysis.options.is_other_speed(analysis.shaft)
+}
+
+impl Analysis {
+    /// At which speeds a comb at no frequency of the bearing would be one of damage, in a sentence; `None` where something tells the speed.
+    pub fn speeds_of_comb(&self) -> Option<String> {
+        let elsewhere = self.elsewhere.as_ref().filter(|e| e.every.is_none())?;
+        if self.has_record_of_speed() || lines_agree(self) {
+            return None;
+        }
+        Some(speeds_if_its(self, elsewhere).trim().to_owned())
+    }
 }
 
 /// At which speeds each frequency of damage would be there.
