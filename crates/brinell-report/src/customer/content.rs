@@ -47,13 +47,10 @@ impl Judged {
         }));
         severity.extend(of.size.map(|words| format!("Length: {words}")));
         let told = format!("{}; {}", of.speed, a.shaft_words());
-        let speed = match a.speed_used() {
-            Some(used) => format!("{}. {used}", of.speed),
-            // Expected frequencies stand beside, and are of the speed that was found.
-            None if (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 => {
-                format!("{}; used: {:.1} r/min, of its own lines", of.speed, 60.0 * a.shaft)
-            }
-            None => of.speed,
+        // Expected frequencies stand beside, and are of the speed that was found.
+        let speed = match (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 {
+            true => format!("{}; used: {:.1} r/min, of its own lines", of.speed, 60.0 * a.shaft),
+            false => of.speed,
         };
         let record =
             format!("{} s, {} samples at {} Hz, in {}", short(a.duration(), 4), a.samples, m.rate, raised(unit));
