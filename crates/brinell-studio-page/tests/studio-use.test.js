@@ -259,7 +259,8 @@ describe("the page in use", () => {
   it("is at rest where little motion is preferred", async () => {
     for (const reducedMotion of ["reduce", "no-preference"]) {
       await on({ reducedMotion }, async (page) => {
-        const look = () => page.evaluate(() => globalThis.brinellStudio.panel.raceway.instant?.rows[0].orbit[0]);
+        const look = () => page.evaluate(() => globalThis.brinellStudio.panel.raceway.instant.rows[0].orbit[0]);
+        await until(page, () => globalThis.brinellStudio.panel.raceway.instant);
         const first = await look(),
           from = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
         await until(page, (n) => Math.abs(globalThis.brinellStudio.side.trace.end - n) > 2000, from);

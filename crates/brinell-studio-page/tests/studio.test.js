@@ -103,6 +103,8 @@ describe("the page", () => {
       // It still runs.
       const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
       await until(page, (n) => globalThis.brinellStudio.side.trace.end !== n, end);
+      // The healthy bearing comes behind its curves.
+      await until(page, () => document.querySelector('brinell-curve[kind="envelope"]').data?.behind);
     });
   });
 
