@@ -144,7 +144,7 @@ fn prop_slip_of_the_cage_has_one_sign() {
     ] {
         let (a, _) = told(slip, lines, own);
         assert_eq!((first(&a), a.conclusion()), (None, Verdict::CannotTell), "{slip}: {}", a.verdict());
-        let names_slip = a.verdict().contains("or a cage that slips by 3.0 %");
+        let names_slip = a.verdict().contains("or with a cage that slips by 3.0 %");
         assert_eq!(names_slip, !own, "{slip}: {}", a.verdict());
     }
 }
