@@ -95,6 +95,13 @@ def test_prop_a_channel_is_named_as_by_the_command(tmp_path):
             brinell.read_signal(path, channel=channel)
 
 
+def test_prop_a_column_of_times_gives_the_rate(tmp_path):
+    path = tmp_path / "own.csv"
+    path.write_text("time [s],acc [g]\n" + "".join(f"{k / 1000},{(-1) ** k}\n" for k in range(100)))
+    found = brinell.read_signal(path)
+    assert (found.channel, found.rate_hz, found.unit) == ("acc", pytest.approx(1000.0), "g")
+
+
 def test_prop_a_sweep_takes_the_commands_ranges(base):
     table = brinell.sweep(base.replace({"simulation.duration_s": 0.02}), {"operation.speed_rpm": "900:1800:450", "simulation.model": "full, lumped"})
     assert table.shape == (3, 2) and sorted(set(table["operation.speed_rpm"])) == [900.0, 1350.0, 1800.0]

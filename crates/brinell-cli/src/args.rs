@@ -160,7 +160,7 @@ pub(crate) struct FrequenciesArgs {
     )]
     pub(crate) name: Option<String>,
     /// Shaft speed [default: the scenario's, or 60 r/min so that Hz are orders]
-    #[arg(long, value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"), value_name = "RPM")]
+    #[arg(long, alias = "rpm", value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"), value_name = "RPM")]
     pub(crate) speed: Option<f64>,
     #[command(flatten)]
     pub(crate) elements: Elements,

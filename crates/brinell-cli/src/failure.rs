@@ -4,7 +4,17 @@ use crate::say::complain;
 use brinell::document::{Problem, on_one_line, one_line, render_diagnostics};
 use brinell::model::ModelError;
 use brinell_io::IoError;
+use std::io::ErrorKind;
 use std::path::PathBuf;
+
+/// Why a file cannot be read, without the system's number where words say it.
+fn why(error: &std::io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such file".into(),
+        ErrorKind::IsADirectory => "it is a folder; expected a file".into(),
+        _ => error.to_string(),
+    }
+}
 
 /// What the command ends with: the number is for the process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +46,7 @@ pub(crate) enum Failure {
     #[error("{0}")]
     Usage(String),
     /// A file cannot be read.
-    #[error("cannot read {}: {error}", .0.display(), error = .1)]
+    #[error("cannot read {}: {why}", .0.display(), why = why(.1))]
     Read(PathBuf, std::io::Error),
     /// A result cannot be written.
     #[error(transparent)]

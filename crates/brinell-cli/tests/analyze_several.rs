@@ -171,7 +171,7 @@ fn regress_several_channels_are_a_row_each_and_the_clearest_leads() {
     assert_eq!(channels, ["radial", "axial"]);
     assert!(all["leading"].as_str().unwrap().starts_with("2 leads: Outer race damage"));
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    assert!(page.contains("2 signals, damage called in 1") && page.contains("2 leads: Outer race"));
+    assert!(page.contains("2 channels, damage called in 1") && page.contains("2 leads: Outer race"));
     // One that is not there, beside one that is; and calibrate fits to one.
     let more = ["--channel", "radial", "--channel", "tangential"];
     brinell(folder.path(), &call(&["rig.csv"], &more))

@@ -100,7 +100,8 @@ fn prop_results_say_what_made_them() {
     assert!(told.contains(&format!("kernel {}", made["kernel"].as_str().unwrap())), "{told}");
     assert!(told.contains(&format!("commit {}", made["commit"].as_str().unwrap_or("unknown"))), "{told}");
     let page = fs::read_to_string(here.join("a/report.html")).unwrap();
-    for part in ["2000-02-29 00:00:00 UTC", made["scenario_sha256"].as_str().unwrap(), made["kernel"].as_str().unwrap()]
+    for part in
+        ["2000-02-29 00:00:00 UTC", &made["scenario_sha256"].as_str().unwrap()[..12], made["kernel"].as_str().unwrap()]
     {
         assert!(page.contains(part), "{part}");
     }

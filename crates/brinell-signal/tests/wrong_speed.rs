@@ -47,7 +47,10 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
         assert_eq!(nearest.name, "BPFO");
         // Half a per cent of slip.
         assert!((nearest.shaft / (0.995 * SHAFT) - 1.0).abs() < 5e-3, "{nearest:?}");
-        assert!(told.verdict().contains("Are speed and bearing right?"));
+        let verdict = told.verdict();
+        let words = format!("It would be BPFO at {:.0} r/min", 60.0 * nearest.shaft);
+        assert!(verdict.contains(&words), "{verdict}");
+        assert!(verdict.contains("Is one of these the speed, and is it this bearing?"));
     }
 }
 
@@ -141,7 +144,7 @@ fn prop_slip_of_the_cage_has_one_sign() {
     ] {
         let (a, _) = told(slip, lines, own);
         assert_eq!((first(&a), a.conclusion()), (None, Verdict::CannotTell), "{slip}: {}", a.verdict());
-        let names_slip = a.verdict().contains("or a cage that slips by 3.0 %");
+        let names_slip = a.verdict().contains("or with a cage that slips by 3.0 %");
         assert_eq!(names_slip, !own, "{slip}: {}", a.verdict());
     }
 }

@@ -45,12 +45,14 @@ function figures(side) {
     });
   }
   const m = side.moments;
-  if (!m?.samples) return [];
+  if (!m) return [];
+  const enough = m.samples >= side.needed,
+    shown = (/** @type {number} */ v, unit = "") => (enough ? `${short(v)}${unit}` : "–");
   return [
-    pair("RMS", `${short(m.rms)} ${unit}`),
-    pair("peak", `${short(m.peak)} ${unit}`),
-    pair("crest factor", short(m.crest)),
-    pair("kurtosis", short(m.kurtosis)),
+    pair("RMS", shown(m.rms, ` ${unit}`)),
+    pair("peak", shown(m.peak, ` ${unit}`)),
+    pair("crest factor", shown(m.crest)),
+    pair("kurtosis", shown(m.kurtosis)),
   ];
 }
 
@@ -64,7 +66,9 @@ function state(side) {
   const now = live.whole ? `${long}, ${side.percent} %` : opened?.quick ? `${live.state}, quick tables` : live.state,
     paused = live.whole && live.state === "paused" ? ", paused" : "";
   // Samples count from where the bearing has settled.
-  return `${opened ? now + paused : ""}${moments ? (moments.samples ? `, ${moments.samples} samples` : ", settling") : ""}`;
+  const n = moments?.samples,
+    counted = n ? `, ${n}${n < side.needed ? ` of a turn's ${side.needed}` : ""} samples` : moments ? ", settling" : "";
+  return `${opened ? now + paused : ""}${counted}`;
 }
 
 /** Words of the engine, which are those of a terminal, with a true minus. @param {string} words */

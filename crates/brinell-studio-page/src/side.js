@@ -6,7 +6,9 @@ import { Trace } from "./trace.js";
 /** @typedef {import("./answers.js").Trouble} Trouble */
 /** @typedef {(side: Side, kind: string, data?: any) => void} Show */
 
-const MOST_EQUAL = 32768;
+const MOST_EQUAL = 32768,
+  // As the engine, which lets a turn of the shaft pass before it counts, waits for a slow one.
+  LONGEST_TURN_S = 0.1;
 
 /**
  * Puts spectra of equally many samples that count into bearings that are compared: a longer record has narrower lines, and one that begins has the
@@ -34,6 +36,8 @@ export class Side {
   opened = null;
   /** @type {any} */
   moments = null;
+  /** Whether a sample has counted since it began at t = 0: before that, forces and motion are those of the start. */
+  settled = false;
   /** @type {any} */
   spectra = null;
   /** Beside another bearing: spectra of as many samples as its. @type {any} */
@@ -50,6 +54,11 @@ export class Side {
   part = 0;
   get percent() {
     return Math.min(99, Math.floor(100 * this.part));
+  }
+  /** Samples of a turn of the shaft: numbers of fewer say nothing of the bearing. */
+  get needed() {
+    const { rate_hz, rpm } = this.opened;
+    return Math.ceil(rate_hz * Math.min(60 / rpm, LONGEST_TURN_S));
   }
   /** Simulated seconds for a real one, lately. */
   pace = 0;
@@ -99,6 +108,8 @@ export class Side {
     this.opened = opened;
     this.trace.clear();
     this.indicators = null;
+    this.moments = { samples: 0 };
+    if (!opened.carried) this.settled = false;
     if (edit.again) return;
     // What was said of the bearing before is not said of this one.
     this.verdict = this.loop = null;
@@ -113,6 +124,7 @@ export class Side {
   #slice(data) {
     this.trace.push(data.first, data.x);
     this.moments = data.moments;
+    this.settled ||= data.moments.samples > 0;
     const now = performance.now(),
       { t, at } = this.#paced;
     if (data.t < t || now - at > 3000) this.#paced = { t: data.t, at: now };

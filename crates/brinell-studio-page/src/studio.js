@@ -217,7 +217,7 @@ export class Studio {
   /** @type {Show} */
   #show(side, kind, data) {
     // A stored run is not what was edited, and makes room for what is live.
-    if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
+    if ((kind === "spectra" && !data.settling) || kind === "scenario" || kind === "problems") this.still = null;
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (["state", "problems", "recovered", "working", "left"].includes(kind)) this.dirty.add("state");
     if (kind === "lost")
@@ -240,7 +240,7 @@ export class Studio {
     if (kind === "opened") this.#opened(data);
     else if (kind === "scenario") this.dirty.add("fields");
     else if (kind === "slice") {
-      if (data.frames) {
+      if (data.frames && side.settled) {
         this.panel.raceway.frames = data.frames;
         if (this.bearing) this.bearing.frames = data.frames;
       }

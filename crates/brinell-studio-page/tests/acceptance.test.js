@@ -71,7 +71,6 @@ function meet(words, page, native) {
 }
 
 async function scratched(page) {
-  await start(page, "healthy");
   await page.click('[data-tool="pen"]');
   await page.fill(".narrow-number", "1.5");
   await drag(page, [0.47, 0.3], [0.51, 0.7], 8);
@@ -89,7 +88,6 @@ async function scratched(page) {
 }
 
 async function refused(page) {
-  await start(page, "rectangle");
   const field = page.locator(".chosen .field", { hasText: "Width" }),
     input = field.locator("input[inputmode]");
   await type(input, "99");
@@ -117,10 +115,10 @@ describe("the page with its engine, held against the command", { skip: missing }
     server?.close();
     if (folder) await rm(folder, { recursive: true });
   });
-  const on = (look, options = {}) => quietly(browser, server.url, options, look);
+  const on = (example, look) => quietly(browser, server.url, { example }, look);
 
   it("runs every example to the statistics of the command", async (t) =>
-    on(async (page) => {
+    on("healthy", async (page) => {
       const names = await page.evaluate(() => globalThis.brinellStudio.about.examples.map((e) => e.name));
       assert.ok(names.length >= 12, names.join(" "));
       const missed = [];
@@ -152,8 +150,7 @@ describe("the page with its engine, held against the command", { skip: missing }
     }));
 
   it("sounds only after a click, and then at BPFO", async (t) =>
-    on(async (page) => {
-      await start(page, "rectangle");
+    on("rectangle", async (page) => {
       // Whole turns of 0.4 s; the loop before has fewer.
       await until(page, () => {
         const { loop } = document.querySelector("brinell-sound");
@@ -200,8 +197,7 @@ describe("the page with its engine, held against the command", { skip: missing }
     }));
 
   it("keeps its memory over 50 edits", async (t) =>
-    on(async (page) => {
-      await start(page, "rectangle");
+    on("rectangle", async (page) => {
       const cdp = await page.context().newCDPSession(page);
       const edits = (n) =>
         page.evaluate(async (n) => {
@@ -234,7 +230,7 @@ describe("the page with its engine, held against the command", { skip: missing }
     }));
 
   it("takes drawings and scans of damage", async (t) =>
-    on(async (page) => {
+    on("healthy", async (page) => {
       const fill = async (label, value) => {
         const field = page.locator("dialog").getByLabel(label, { exact: true });
         if ((await field.evaluate((node) => node.tagName)) === "SELECT") await field.selectOption(value);
@@ -295,7 +291,7 @@ describe("the page with its engine, held against the command", { skip: missing }
     }));
 
   it("saves as CSV what it plots, in the format of the command", async () =>
-    on(async (page) => {
+    on("healthy", async (page) => {
       const { toml, axis } = await finished(page, "rectangle", 0.1),
         { text } = await saved(page, "Signals, CSV"),
         [head, ...lines] = text.trim().split("\n");
@@ -335,10 +331,10 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     studio?.kill();
     if (folder) await rm(folder, { recursive: true });
   });
-  const on = (look) => quietly(browser, address, {}, look);
+  const on = (example, look) => quietly(browser, address, { example }, look);
 
   it("runs an example to the numbers of the command", async (t) =>
-    on(async (page) => {
+    on("healthy", async (page) => {
       assert.equal(await page.evaluate(() => globalThis.brinellStudio.about.engine), "native");
       assert.equal(page.workers().length, 0);
       const got = await finished(page, "rectangle", SHORT_S),
@@ -355,7 +351,7 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     }));
 
   it("judges a measured file with the words, warnings and levels of the command", async (t) =>
-    on(async (page) => {
+    on("healthy", async (page) => {
       const turn = 12000 / (1730 / 60),
         rows = Array.from({ length: 24000 }, (_, k) =>
           k === 12000 ? 300 : Math.sin(1.5 * k) * Math.exp(-(k % Math.round(turn / 5.415)) / 12) + 0.1 * Math.sin(k * k),
@@ -397,13 +393,12 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
       t.diagnostic(levels);
     }));
   it("runs another bearing on each page, and says so to the one that makes room", async () =>
-    on(async (page) => {
+    on("rectangle", async (page) => {
       const speeds = [900, 1100, 1300, 1500],
         others = [],
         rpm = (one) => one.evaluate(() => globalThis.brinellStudio.side.opened.rpm);
       const live = (one, n) =>
         until(one, (n) => globalThis.brinellStudio.side.trace.end > n && globalThis.brinellStudio.side.live.state === "live", n);
-      await start(page, "rectangle");
       // It rests, so it is the one whose place is taken.
       await page.click("#pause");
       for (const speed of speeds) {
@@ -437,10 +432,10 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
       }
       page.said = page.said.filter((words) => !/410/.test(words));
     }));
-  it("is scratched while it runs", async () => on(scratched));
-  it("says what is wrong beside the control", async () => on(refused));
+  it("is scratched while it runs", async () => on("healthy", scratched));
+  it("says what is wrong beside the control", async () => on("rectangle", refused));
   it("carries its scenario over a reload", async () =>
-    on(async (page) => {
+    on("healthy", async (page) => {
       await start(page, "inner-race");
       const { toml } = await opened(page);
       // It is kept when nothing has changed for a moment.

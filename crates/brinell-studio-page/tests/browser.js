@@ -6,6 +6,7 @@ import { extname, join, resolve } from "node:path";
 import { buffer } from "node:stream/consumers";
 import { chromium } from "playwright-core";
 import { hosted } from "../host.js";
+import { until } from "./page.js";
 
 const PLACES = [
   "/usr/bin/chromium",
@@ -79,14 +80,26 @@ export async function open(browser, url, { width = 1400, height = 900, before, .
 
 // The page runs a bearing and has shown some of it.
 export async function running(page) {
-  await page.waitForFunction(() => globalThis.brinellStudio?.side?.spectra, null, { timeout: 30000 });
+  await page.waitForFunction(() => globalThis.brinellStudio?.side?.spectra, null, { timeout: 90000 });
 }
 
-// Runs `look` on the page in a window of its own, and holds the page to silence and to itself.
-export async function quietly(browser, url, options, look) {
-  const page = await open(browser, url, options);
+/** A window whose page remembers an example. @param {string} url @param {string} name */
+function remembering(url, name) {
+  const value = readFileSync(resolve(ROOT, `../brinell-studio/examples/${name}.toml`), "utf8");
+  return { cookies: [], origins: [{ origin: new URL(url).origin, localStorage: [{ name: "brinell-studio", value }] }] };
+}
+
+// Runs `look` on the page in a window of its own, and holds the page to silence and to itself. With an `example` the page begins with that and without the healthy bearing behind,
+// which takes as long as half a run, and `look` begins as soon as it is open; else the page begins as for anybody, and has shown curves.
+export async function quietly(browser, url, { example, ...options }, look) {
+  const page = await open(browser, url, example ? { ...options, storageState: remembering(url, example) } : options);
   try {
-    await running(page);
+    if (example) {
+      await until(page, () => globalThis.brinellStudio?.side?.live.opened);
+      await page.evaluate(() => {
+        globalThis.brinellStudio.healthy.free = () => false;
+      });
+    } else await running(page);
     await look(page);
     assert.deepEqual(page.said, []);
     const home = new URL(url).origin;

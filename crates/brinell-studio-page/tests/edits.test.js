@@ -19,8 +19,7 @@ const on = (options, look) => quietly(browser, server.url, options, look);
 
 describe("edits", () => {
   it("gives another bearing a load and a name that fit it, and says that damage stays", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       await page.selectOption("#preset", "bearing:NU2205");
       await page.click("#load");
       // A tenth of C0 = 34 kN, to one digit, as `brinell init --bearing NU2205` has it, in the direction that was there; 300 N are the NN3007's.
@@ -46,8 +45,7 @@ describe("edits", () => {
     }));
 
   it("loads an example again, changes nothing on the way along the list, and keeps an edit that has no answer yet", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const speed = page.getByLabel("Speed", { exact: true }),
         runs = (rpm) => until(page, (rpm) => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === rpm, rpm);
       await type(speed, "1500");
@@ -73,8 +71,7 @@ describe("edits", () => {
     }));
 
   it("cancels a run, and says at once that nothing was saved of it", async () =>
-    on({}, async (page) => {
-      await start(page, "run-up");
+    on({ example: "run-up" }, async (page) => {
       assert.equal(await page.getByLabel("Speed", { exact: true }).getAttribute("placeholder"), "varies: 2 points");
       await page.click("#save");
       await page.click('#save-list button:has-text("CSV")');
@@ -90,8 +87,7 @@ describe("edits", () => {
     }));
 
   it("shows the surface on which undo and redo act", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       await page.click('[data-surface="inner-raceway"]');
       await page.click('[data-tool="circle"]');
       await drag(page, [0.4, 0.5], [0.42, 0.5]);
@@ -101,8 +97,7 @@ describe("edits", () => {
     }));
 
   it("takes 100 edits in 2 s, and the last one wins", async (t) =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const { frames, asked } = await page.evaluate(async () => {
         let frames = 0,
           going = true;
@@ -136,8 +131,7 @@ describe("edits", () => {
     }));
 
   it("says what is wrong beside the control, while the last good bearing runs on", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const field = page.locator(".chosen .field", { hasText: "Width" }),
         input = field.locator("input[inputmode]");
       await type(input, "99");
@@ -229,8 +223,7 @@ describe("edits", () => {
   });
 
   it("takes load and angle in other units, keeps what was typed until it is opened, and a name as it is", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const field = (label) => page.getByLabel(label, { exact: true }),
         load = (wanted) =>
           until(
@@ -270,8 +263,7 @@ describe("edits", () => {
     }));
 
   it("shares and saves what was typed last, and nothing that is refused", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const speed = page.getByLabel("Speed", { exact: true }),
         tap = (id) => page.evaluate((id) => document.getElementById(id).click(), id);
       // As a finger does: the focus stays in the field.
@@ -297,8 +289,7 @@ describe("edits", () => {
     }));
 
   it("says that a server does not answer, and saves nothing that it did not open", async () =>
-    quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
-      await start(page, "rectangle");
+    quietly(browser, `${server.url}?token=secret`, { example: "rectangle" }, async (page) => {
       await page.route("**/ask*", (route) => route.abort());
       await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start again tries once more")');
       await type(page.getByLabel("Speed", { exact: true }), "1450");
@@ -319,8 +310,7 @@ describe("edits", () => {
     }));
 
   it("leaves a field empty that must be stated, and takes the number that was there again", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const speed = page.getByLabel("Speed", { exact: true }),
         good = () =>
           until(page, () => !globalThis.brinellStudio.side.problems.length && !document.querySelector('#controls [aria-invalid="true"]'));
@@ -349,8 +339,7 @@ describe("edits", () => {
     }));
 
   it("takes typed text back before an edit, and leaves none to another bearing", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const speed = page.getByLabel("Speed", { exact: true }),
         load = page.getByLabel("Load", { exact: true });
       const stated = async () => [(await scenario(page)).operation.speed_rpm, (await scenario(page)).operation.load_n[0]];
@@ -397,8 +386,7 @@ describe("edits", () => {
       [-1, 1, -0.9],
     ])
       assert.equal(stepped(from, way, 1), to, `${from}, ${way}`);
-    await on({}, async (page) => {
-      await start(page, "rectangle");
+    await on({ example: "rectangle" }, async (page) => {
       const width = page.locator(".chosen .field", { hasText: "Width" }).locator("input[inputmode]");
       await type(width, "0.2");
       for (let k = 0; k < 3; k++) await width.press("ArrowDown");
@@ -407,8 +395,7 @@ describe("edits", () => {
   });
 
   it("leaves nothing of a file that is refused, and says why", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       await drop(page, "wrong.toml", Buffer.from("preset = ").toString("base64"));
       await page.waitForSelector('[data-kind="refused"]:has-text("wrong.toml is refused")');
       await says(page, /^live$/);

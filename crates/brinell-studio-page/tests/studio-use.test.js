@@ -10,8 +10,7 @@ const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 describe("the page in use", () => {
   it("compares A with B in two Workers", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       const before = (await opened(page)).scenario;
       await page.click("#side-b");
       await until(page, () => globalThis.brinellStudio.sides[1]?.opened && globalThis.brinellStudio.side.name === "B");
@@ -56,8 +55,7 @@ describe("the page in use", () => {
     }));
 
   it("compares A with B by spectra of equally many samples, from B's first curve on", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       await until(page, () => globalThis.brinellStudio.side.moments?.samples > 9000);
       await page.click("#both");
       for (const kind of ["spectrum", "envelope"]) {
@@ -187,8 +185,7 @@ describe("the page in use", () => {
     }));
 
   it("is usable with the keyboard alone", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       await page.evaluate(() => document.activeElement.blur());
       const at = () => page.evaluate(() => document.activeElement?.closest("brinell-raceway") !== null);
       for (let k = 0; k < 60 && !(await at()); k++) await page.keyboard.press("Tab");
@@ -262,7 +259,8 @@ describe("the page in use", () => {
   it("is at rest where little motion is preferred", async () => {
     for (const reducedMotion of ["reduce", "no-preference"]) {
       await on({ reducedMotion }, async (page) => {
-        const look = () => page.evaluate(() => globalThis.brinellStudio.panel.raceway.instant?.rows[0].orbit[0]);
+        const look = () => page.evaluate(() => globalThis.brinellStudio.panel.raceway.instant.rows[0].orbit[0]);
+        await until(page, () => globalThis.brinellStudio.panel.raceway.instant);
         const first = await look(),
           from = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
         await until(page, (n) => Math.abs(globalThis.brinellStudio.side.trace.end - n) > 2000, from);
@@ -302,8 +300,7 @@ describe("the page in use", () => {
     }));
 
   it("goes on with the same bearing when its Worker is killed", async (t) =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       await until(page, () => globalThis.brinellStudio.side.trace.end > 3000);
       const toml = (await opened(page)).toml,
         took = await page.evaluate(async () => {

@@ -1,10 +1,11 @@
 // The studio's page: how it starts, draws, reads and keeps, in Chromium. Times are printed, not judged.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { resolve } from "node:path";
+import { join, resolve } from "node:path";
 import { describe, it } from "node:test";
 import { open, quietly, running } from "./browser.js";
-import { ROOT, browser, server, file, on } from "./packed.js";
+import { decode } from "../src/message.js";
+import { ROOT, browser, server, file, folder, on } from "./packed.js";
 import { drag, drop, moments, opened, place, saved, says, scenario, settled, start, type, until } from "./page.js";
 
 describe("the page", () => {
@@ -39,6 +40,62 @@ describe("the page", () => {
     await page.context().close();
   });
 
+  for (const [name, options] of [
+    ["a window", {}],
+    ["a phone", { width: 390, height: 844, hasTouch: true }],
+  ])
+    it(`shows no number of few samples and no force of the start, in ${name}`, async () => {
+      // The stored run is in the page, and the engine, behind a server, waits before each slice for as long as it is held.
+      const page = await open(browser, "about:blank", options);
+      await page.route(`${server.url}?token=secret`, (route) => route.fulfill({ path: join(folder, "site/index.html") }));
+      let slices = 0,
+        samples = 0,
+        hold = () => true;
+      const waiting = [];
+      const letOn = (until) => {
+        hold = until;
+        for (const go of waiting.splice(0)) go();
+      };
+      await page.route("**/ask?*", async (route) => {
+        // The healthy bearing has the other slot.
+        const asked = decode(new Uint8Array(route.request().postDataBuffer())),
+          slice = asked.do === "advance" && asked.slot === 0;
+        if (asked.do === "open" && asked.slot === 0) samples = 0;
+        if (slice && hold()) await new Promise((done) => waiting.push(done));
+        const response = await route.fetch();
+        if (slice) {
+          slices += 1;
+          samples = decode(new Uint8Array(await response.body())).moments?.samples;
+        }
+        await route.fulfill({ response });
+      });
+      await page.goto(`${server.url}?token=secret`);
+      const footer = (words) => until(page, (words) => document.querySelector("footer").textContent.includes(words), words),
+        figures = async () => new Set(await page.locator("footer dd").allTextContents());
+      const face = () =>
+        page.locator("brinell-bearing").evaluate((node) => [node.motion.largest, node.shadowRoot.querySelector(".readout").textContent]);
+      // It is open: the stored run's numbers are not its own.
+      await footer("settling");
+      assert.deepEqual(await figures(), new Set(["–"]));
+      assert.deepEqual(await face(), [0, "at rest until it has settled"]);
+      letOn(() => samples > 0);
+      await footer("of a turn's 854 samples");
+      assert.ok(slices > 4 && samples < 854, `${samples} samples in ${slices} slices`);
+      assert.deepEqual(await figures(), new Set(["–"]));
+      letOn(() => false);
+      await until(page, () => /\d/.test(document.querySelector("footer dd")?.textContent));
+      assert.ok((await page.evaluate(() => globalThis.brinellStudio.side.moments.samples)) >= 854);
+      assert.equal((await figures()).has("–"), false);
+      // Under 300 N the heaviest roller carries 85 N; all are pressed by 270 N where they start.
+      const [face_n, raceway_n] = await page.evaluate(() => [
+        document.querySelector("brinell-bearing").motion.largest,
+        document.querySelector("brinell-raceway")._felt.heaviest,
+      ]);
+      assert.ok(face_n > 20 && face_n < 200 && raceway_n > 20 && raceway_n < 200, `${face_n} N, ${raceway_n} N`);
+      assert.deepEqual(page.said, []);
+      await page.context().close();
+    });
+
   it("opens from disk without network", async (t) => {
     const from = performance.now();
     await quietly(browser, file, { offline: true }, async (page) => {
@@ -47,12 +104,13 @@ describe("the page", () => {
       // It still runs.
       const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
       await until(page, (n) => globalThis.brinellStudio.side.trace.end !== n, end);
+      // The healthy bearing comes behind its curves.
+      await until(page, () => document.querySelector('brinell-curve[kind="envelope"]').data?.behind);
     });
   });
 
   it("scratches the raceway while the bearing runs", async (t) =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       await until(page, () => globalThis.brinellStudio.side.live.opened.carried);
       const healthy = await moments(page, 2000);
       await page.click('[data-tool="pen"]');
@@ -117,8 +175,7 @@ describe("the page", () => {
     }));
 
   it("draws with every tool, moves and sizes what is drawn", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       const count = (n) => until(page, (k) => globalThis.brinellStudio.side.opened.scenario.defects?.length === k, n);
       for (const [k, tool] of ["rectangle", "circle", "paper", "brush", "pen"].entries()) {
         await page.click(`[data-tool="${tool}"]`);
@@ -151,8 +208,7 @@ describe("the page", () => {
     }));
 
   it("ends and takes back what its tools draw", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       const count = (n) => until(page, (k) => (globalThis.brinellStudio.side.opened.scenario.defects?.length ?? 0) === k, n);
       // A double click is one circle of 3 mm.
       await page.click('[data-tool="circle"]');
@@ -202,8 +258,7 @@ describe("the page", () => {
     }));
 
   it("takes photos and drawings of damage, and says why it does not take junk", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       await drop(page, "spall.jpg", Buffer.from("not a picture").toString("base64"));
       await page.waitForSelector("dialog[open]");
       await page.locator("dialog .field", { hasText: "Millimetres per pixel" }).locator("input[inputmode]").fill("0,02");
@@ -225,8 +280,7 @@ describe("the page", () => {
     }));
 
   it("shows a photo with its outline, takes its scale from two clicks, and asks whether to replace or add", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const photo = (await readFile(resolve(ROOT, "../brinell-studio/examples/photo-spall.png"))).toString("base64");
       const chosen = async () => {
         await drop(page, "photo-spall.png", photo);
@@ -280,8 +334,7 @@ describe("the page", () => {
     }));
 
   it("says by which law damage acts, and that its table is being computed", async () =>
-    on({}, async (page) => {
-      await start(page, "healthy");
+    on({ example: "healthy" }, async (page) => {
       // Tables that somebody waits for.
       await page.evaluate(async () => {
         const engine = await globalThis.brinellStudio.side.live.engine,
@@ -303,8 +356,7 @@ describe("the page", () => {
     }));
 
   it("carries a scenario in a link, a file and its memory", async () =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       await page.click('[data-tool="circle"]');
       await drag(page, [0.7, 0.5], [0.71, 0.5]);
       await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects.length === 2);
@@ -331,8 +383,7 @@ describe("the page", () => {
     }));
 
   it("saves the signal of a run from t = 0", async (t) =>
-    on({}, async (page) => {
-      await start(page, "rectangle");
+    on({ example: "rectangle" }, async (page) => {
       const from = performance.now(),
         { text } = await saved(page, "Signals, CSV"),
         { samples } = await opened(page);

@@ -77,7 +77,8 @@ impl fmt::Display for MadeBy {
             write!(f, ", {}", date.replace('T', " ").replace('Z', " UTC"))?;
         }
         match &self.scenario_sha256 {
-            Some(sum) => write!(f, "; SHA-256 of scenario.toml {sum}"),
+            // Its first digits, as of the commit: summary.json has all.
+            Some(sum) => write!(f, "; scenario.toml with SHA-256 {}", sum.get(..12).unwrap_or(sum)),
             None => Ok(()),
         }
     }

@@ -47,7 +47,7 @@ pub(crate) struct AnalyzeArgs {
     #[command(flatten)]
     pub(crate) signal: SignalArgs,
     /// Shaft speed (the inner ring turns, the outer rests)
-    #[arg(long, value_parser = shaft_speed, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, alias = "rpm", value_parser = shaft_speed, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<GivenSpeed>,
     /// Channel that holds the shaft speed, in r/min unless the file states its unit; where it strays by more than 0.5 %
     /// it is followed (order tracking), else its mean counts

@@ -41,6 +41,13 @@ impl AnalyzeArgs {
         let usage = |words: String| Err(Failure::Usage(words));
         let of = &self.customer;
         let [html, pdf] = self.reports();
+        let is_pdf = |path: &&Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("pdf"));
+        if let Some(path) = self.folder().filter(is_pdf) {
+            return usage(format!(
+                "-o {0}: expected a folder, or REPORT.html; a PDF is given by --pdf {0}",
+                path.display()
+            ));
+        }
         if !self.is_reported() {
             let given = [
                 ("--title", of.title.is_some()),

@@ -4,6 +4,10 @@ use super::rows::{Found, Row};
 use brinell::signal::Estimate;
 use brinell_report::{IndicatorLine, IndicatorPlot, IndicatorPoint, scaled};
 
+/// What a row of a table is, as its heading says it.
+pub(super) const FILE: &str = "File";
+pub(super) const CHANNEL: &str = "Channel";
+
 /// Whether the files' names have room on the axis of a trend; else they are numbered.
 fn named(rows: &[Row]) -> bool {
     const MOST: usize = 8;
@@ -23,18 +27,19 @@ fn line(rows: &[Row], label: &str, of: impl Fn(&Found) -> Option<Estimate>) -> I
     IndicatorLine { label: label.into(), points: rows.iter().enumerate().map(point).collect() }
 }
 
-pub(super) fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
+/// `of`: what a row is, "File" or "Channel". Files may follow one another; channels stand side by side.
+pub(super) fn plots(rows: &[Row], of: &str) -> Vec<IndicatorPlot> {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
     let plot = |name: &str, label: &str, unit: &str, lines: Vec<IndicatorLine>| IndicatorPlot {
         name: format!("trend-{name}"),
         label: label.into(),
         unit: unit.into(),
-        x_label: "File".into(),
+        x_label: of.into(),
         x_names: match named(rows) {
             true => rows.iter().map(|row| row.name.clone()).collect(),
             false => Vec::new(),
         },
-        ordered: true,
+        ordered: of == FILE,
         lines,
         ..IndicatorPlot::default()
     };

@@ -3,7 +3,7 @@
 use super::args::AnalyzeArgs;
 use super::columns::{COLUMNS, in_columns};
 use super::customer;
-use super::plots::plots;
+use super::plots::{CHANNEL, FILE, plots};
 use super::records::records;
 use super::rows::{Row, judged, one};
 use super::trend;
@@ -188,7 +188,7 @@ fn write(
 }
 
 /// What the plots show.
-const TREND: &str = "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; \
+const TREND: &str = "In the order of the table; many files are numbered as in its first column. Bars: 95 % intervals; \
     rings: values without one; crosses on the axis: no value; dashed: boundaries of the zones, the scores from which a \
     family is beyond noise or high, the record that each is compared with. The score says only how far a family's \
     harmonics rise over the noise; the verdict also takes how deep they modulate the envelope, and leaves out lines that \
@@ -199,9 +199,11 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
     let damaged = found().filter(|f| f.lead.is_some()).count();
+    let leading = leading(args, rows);
+    let (of, all) = if leading.is_some() { (CHANNEL, "Channels") } else { (FILE, "Files") };
     let table = Table::new(
-        "Files",
-        ["#No.", "File", "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],
+        all,
+        ["#No.", of, "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],
         (rows.iter().enumerate()).map(|(i, row)| {
             let mut cells = vec![(i + 1).to_string(), label(dated.map(|trend| &trend.times), i, &row.name)];
             match &row.found {
@@ -210,36 +212,39 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
             }
             cells
         }),
-        note(rows),
+        note(rows) + &alone(of),
     );
     let verdicts = rows.iter().flat_map(|row| {
         let sentences = row.found.iter().flat_map(|found| &found.sentences);
         sentences.map(|sentence| vec![row.name.clone(), sentence.clone()])
     });
-    let verdicts = Table::new("Verdicts", ["File", "Verdict"], verdicts, "");
-    let leading = leading(args, rows);
-    let what = if leading.is_some() { "signals" } else { "files" };
-    let mut subtitle = format!("{} {what}, damage called in {damaged}, no result from {}", rows.len(), failures.len());
-    subtitle += &leading.map_or(String::new(), |words| format!(". {words}"));
+    let verdicts = Table::new("Verdicts", [of, "Verdict"], verdicts, "");
+    let mut subtitle = format!("{}, damage called in {damaged}", say::plural(rows.len(), &of.to_lowercase()));
+    if !failures.is_empty() {
+        subtitle += &format!(", no result from {}", failures.len());
+    }
     let mut chapters: Vec<Chapter> = dated.into_iter().flat_map(trend::chapters).collect();
-    chapters.push(Chapter::table("files", "Files", table));
+    chapters.push(Chapter::table("files", all, table));
     if !verdicts.rows.is_empty() {
         chapters.push(Chapter::table("verdicts", "Verdicts", verdicts));
     }
-    chapters.extend(Chapter::failures("Files without a result", "File", failures));
+    chapters.extend(Chapter::failures(&format!("{all} without a result"), of, failures));
     if dated.is_none() {
-        let plots = plots(rows).into_iter().map(Piece::Trend);
+        let plots = plots(rows, of).into_iter().map(Piece::Trend);
         let trend = std::iter::once(Piece::Note(TREND.into())).chain(plots).collect();
-        chapters.push(Chapter::new("trend", "Trend", "Trend", trend));
+        let title = if of == FILE { "Trend" } else { "Side by side" };
+        chapters.push(Chapter::new("trend", title, title, trend));
     }
     let title = match (dated, rows.len()) {
         (Some(_), _) => "Trend of one machine",
         (None, 1) => "A signal too short for a verdict",
+        _ if of == CHANNEL => "Several channels",
         _ => "Several signals",
     };
     Page {
         title: title.into(),
         subtitle,
+        lead: leading.unwrap_or_default(),
         analysed: true,
         version: MadeBy::now().to_string(),
         warnings: warnings(rows).into_iter().chain(dated.into_iter().flat_map(|t| t.warnings.clone())).collect(),
@@ -257,6 +262,15 @@ fn warnings(rows: &[Row]) -> Vec<String> {
 /// Files whose verdict rests on another speed than the one given.
 fn speeds_used(rows: &[Row]) -> impl Iterator<Item = (&str, &str)> {
     rows.iter().filter_map(|r| Some((r.name.as_str(), r.found.as_ref().ok()?.speed_used.as_deref()?)))
+}
+
+/// Where spectra are.
+fn alone(of: &str) -> String {
+    let which = if of == CHANNEL { "with its --channel alone" } else { "alone" };
+    format!(
+        " Spectra, envelope spectrum and each part's lines are on the page of one {}: the same command {which}.",
+        of.to_lowercase()
+    )
 }
 
 /// What holds for all rows.

@@ -113,6 +113,7 @@ fn plot(trend: &Trend, name: &str, label: &str, of: &[&Followed]) -> IndicatorPl
         },
         x_unit: trend.times.unit.filter(|_| !dated).map_or(String::new(), |unit| unit.name().into()),
         x_ticks: trend.times.ticks(),
+        in_place: true,
         lines: of.iter().map(line).collect(),
         limits: limits.collect(),
         changes: changes.collect(),

@@ -128,6 +128,15 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
             template.word()
         )));
     }
+    // The file's name is easily taken for the bearing's.
+    if let Some(name) = args.file().filter(|file| file.extension().is_none()).and_then(|file| file.to_str())
+        && args.bearing.is_none()
+        && KnownBearing::find(name).is_some()
+    {
+        return Err(Failure::Usage(format!(
+            "{name} would be the name of the file, with another bearing in it: brinell init {name}.toml --bearing {name}"
+        )));
+    }
     let bearing = bearing(args)?;
     let names = Names::of(args);
     let mut text = filled(template.text(), &names, &bearing);

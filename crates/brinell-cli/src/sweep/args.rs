@@ -45,8 +45,8 @@ pub(crate) struct SweepArgs {
     /// Runs at a time [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
-    /// Indicators to plot, such as sensor_ax.rms or envelope.bpfo [default: RMS and peak to peak of the sensor
-    /// acceleration, both rings and a cage, along the load]
+    /// Indicators to plot, such as sensor_ax.rms or envelope.bpfo [default: RMS, peak to peak and kurtosis of the
+    /// sensor's acceleration along the load, the envelope's lines of damaged surfaces, RMS of both rings]
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     pub(crate) plot: Vec<String>,
     /// Also write each plot into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves

@@ -3,16 +3,17 @@
 use super::points::Points;
 use super::table::{count, number};
 use crate::say::{plural, shown_unit};
+use brinell::document::quantity_of_key;
 use brinell::made_by::MadeBy;
 use brinell::result::Quantity;
-use brinell::scenario::Scenario;
+use brinell::scenario::{Scenario, Surface};
 use brinell_report::{
     Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Page, Piece, Table, sweep_lead, sweep_legend,
     value_text, words,
 };
 use brinell_study::campaign::Axis;
 use brinell_study::runner::State;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// Points and failures that the page lists; beyond that, the table is the place.
 const LISTED: usize = 1000;
@@ -23,8 +24,8 @@ const GRID: usize = 3;
 /// Pictures of one indicator; lines beyond them are in the tables alone.
 const PICTURES: usize = 4;
 
-/// RMS and peak to peak of the sensor acceleration, the rings' and a cage's, along the axis nearer the load; of `names`
-/// that are there.
+/// RMS, peak to peak and kurtosis of the sensor's acceleration along the axis nearer the load, the envelope's lines of damaged surfaces,
+/// RMS of the rings; of `names` that are there.
 pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     let axis = ["x", "y"][scenario.operation.axis_of_load()];
     let mut usual = Vec::new();
@@ -32,11 +33,15 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
         let shown = machine.sensors.iter().map(|sensor| machine.channel_of(sensor));
         usual.extend(shown.flat_map(|of| [format!("{of}.rms"), format!("{of}.kurtosis")]));
     }
-    for channel in ["sensor", "inner", "outer", "cage1"] {
-        for indicator in ["rms", "peak_to_peak"] {
-            usual.push(format!("{channel}_a{axis}.{indicator}"));
-        }
-    }
+    usual.extend(["rms", "peak_to_peak", "kurtosis"].map(|indicator| format!("sensor_a{axis}.{indicator}")));
+    let lines = scenario.defects.iter().map(|defect| match defect.on {
+        Surface::OuterRaceway => "envelope.bpfo",
+        Surface::InnerRaceway => "envelope.bpfi",
+        Surface::Roller(_) => "envelope.2bsf",
+    });
+    let lines: BTreeSet<&str> = lines.collect();
+    usual.extend(lines.into_iter().map(String::from));
+    usual.extend(["inner", "outer"].map(|ring| format!("{ring}_a{axis}.rms")));
     usual.retain(|name| names.is_empty() || names.contains(name));
     usual
 }
@@ -44,8 +49,9 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
 pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnings: Vec<String>) -> Page {
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
     let axes: Vec<String> = points.read.grid.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
+    let varied: Vec<String> = points.read.grid.keys().map(|key| short(points, key)).collect();
     let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
-    let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
+    let mut facts = vec![fact("Points", states.len(), &varied.join(" × "))];
     facts.push(fact("Complete", complete, ""));
     if failed > 0 {
         facts.push(fact("Failed", failed, "reasons below"));
@@ -112,6 +118,22 @@ fn x_axis(points: &Points) -> (usize, usize) {
     (0, 0)
 }
 
+/// A varied key where there is little room: what it is of, or the whole of it where another one is of the same.
+fn short(points: &Points, key: &str) -> String {
+    let words = quantity_of_key(key);
+    let alike = points.read.grid.keys().filter(|other| quantity_of_key(other) == words).count();
+    if alike > 1 { key.to_owned() } else { words }
+}
+
+/// The same with its unit.
+fn headed(points: &Points, key: &str) -> String {
+    let words = short(points, key);
+    match points.read.units.get(key) {
+        Some(unit) if !unit.is_empty() => format!("{words} ({})", shown_unit(unit)),
+        _ => words,
+    }
+}
+
 /// An indicator's pictures: one, or several where there are many lines.
 fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot> {
     let (axis, key) = x_axis(points);
@@ -141,7 +163,9 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
         line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
     }
     let x_key = &along.keys()[key];
-    let legend: Vec<String> = others.iter().map(|a| points.read.grid.axes()[*a].keys().join(" with ")).collect();
+    let axis_words =
+        |a: &usize| points.read.grid.axes()[*a].keys().iter().map(|key| headed(points, key)).collect::<Vec<_>>();
+    let legend: Vec<String> = others.iter().map(|a| axis_words(a).join(" with ")).collect();
     let parts = lines.chunks(LINES).take(PICTURES).enumerate();
     parts
         .map(|(part, lines)| IndicatorPlot {
@@ -151,7 +175,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
             },
             label: words(name),
             unit: unit.to_owned(),
-            x_label: x_key.clone(),
+            x_label: short(points, x_key),
             x_unit: points.read.units.get(x_key).copied().unwrap_or("").into(),
             x_names: match numeric {
                 Some(_) => Vec::new(),
@@ -187,13 +211,7 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
         values[place[1 - x] * along.settings().len() + place[x]] = quantity.value.unwrap_or(f64::NAN);
         unit = shown_unit(&quantity.unit);
     }
-    let key = |axis: &Axis| {
-        let keys = axis.keys().iter().map(|key| match points.read.units.get(key) {
-            Some(unit) if !unit.is_empty() => format!("{key} ({unit})"),
-            _ => key.clone(),
-        });
-        keys.collect::<Vec<String>>().join(" with ")
-    };
+    let key = |axis: &Axis| axis.keys().iter().map(|key| headed(points, key)).collect::<Vec<_>>().join(" with ");
     let names = |axis: &Axis| axis.settings().iter().map(|s| s.join(" with ")).collect();
     Some(HeatMap {
         name: format!("{name}-map"),
@@ -223,7 +241,7 @@ fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
 /// The points with their keys and what is plotted.
 fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let mut columns = vec!["#Point".to_owned()];
-    columns.extend(points.read.grid.keys().map(|key| format!("#{key}")));
+    columns.extend(points.read.grid.keys().map(|key| format!("#{}", headed(points, key))));
     columns.push("Status".into());
     let unit = |name: &String| {
         let rows = states.iter().filter_map(State::row);
@@ -235,7 +253,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
             "" => String::new(),
             unit => format!(" ({unit})"),
         };
-        columns.push(format!("#{name}{unit}"));
+        columns.push(format!("#{}{unit}", words(name)));
     }
     let listed = states.iter().enumerate().take(LISTED);
     let rows = listed.map(|(k, state)| {
@@ -253,6 +271,6 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
         0 => String::new(),
         more => format!("{more} more points are in sweep.csv. "),
     };
-    let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
+    let note = "Averages over whole revolutions, in brackets their 95 % intervals, scatter only; peaks are those of a revolution.";
     Table::new("Points", columns, rows, more + note)
 }

@@ -80,7 +80,8 @@ pub(super) fn levels(records: &[Value]) -> Vec<Level> {
         for family in one["families"].as_array().into_iter().flatten() {
             let (component, frequency) = (family["component"].as_str(), family["name"].as_str());
             let key = (*bearing, component.unwrap_or_default(), frequency.unwrap_or_default());
-            if !scores.contains(&key) {
+            // A rolling element's lines lie at 2 BSF or, of one element that strikes, at FTF: one level.
+            if !scores.iter().any(|other| (other.0, other.1) == (key.0, key.1)) {
                 scores.push(key);
             }
         }

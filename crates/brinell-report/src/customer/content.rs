@@ -47,17 +47,10 @@ impl Judged {
         }));
         severity.extend(of.size.map(|words| format!("Length: {words}")));
         let told = format!("{}; {}", of.speed, a.shaft_words());
-        let speed = match a.speed_used() {
-            Some(used) => format!("{}. {used}", of.speed),
-            // Expected frequencies stand beside, and are of the speed that was found.
-            None if (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 => {
-                format!(
-                    "{}; {:.1} r/min by lines at its harmonics, to which the frequencies belong",
-                    of.speed,
-                    60.0 * a.shaft
-                )
-            }
-            None => of.speed,
+        // Expected frequencies stand beside, and are of the speed that was found.
+        let speed = match (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 {
+            true => format!("{}; used: {:.1} r/min, of its own lines", of.speed, 60.0 * a.shaft),
+            false => of.speed,
         };
         let record =
             format!("{} s, {} samples at {} Hz, in {}", short(a.duration(), 4), a.samples, m.rate, raised(unit));
@@ -132,7 +125,10 @@ fn reason(a: &Analysis) -> String {
         Verdict::NothingFound => "At none of the rates at which damage of this bearing strikes does the vibration show more than that of sound machines.".into(),
         _ if a.at_given.is_some() => "At the speed given a part would be damaged, but the record's own lines tell another speed. Which is right?".into(),
         _ if with(Finding::Grown).is_some() => "Impacts at a rate of this bearing have grown since the healthy record, and do not yet reach what damage shows.".into(),
-        _ if a.elsewhere.is_some() => "Something strikes regularly, at a rate that is none of this bearing's: another bearing, a gear, or a wrong speed or bearing would explain it.".into(),
+        _ if a.elsewhere.is_some() => {
+            let speeds = a.speeds_of_comb().map_or(String::new(), |words| format!(" {words}"));
+            format!("Something strikes regularly, at a rate that is none of this bearing's: another bearing, a gear, or a wrong speed or bearing would explain it.{speeds}")
+        }
         _ => match (with(Finding::Open), with(Finding::AsBefore), a.unexplained()) {
             (Some(family), ..) => format!(
                 "There is something at the rate at which {} ({:.1} times a second), and not enough of it to tell damage from other causes.",

@@ -135,12 +135,12 @@ impl CustomerReport {
         let mut severity = vec![Block::Heading("How severe it is"), graded, led(&self.whole.words)];
         severity.extend(lead.severity.iter().map(|words| led(words)));
         severity.push(led(limits(!self.all.rows.is_empty())));
-        let next = vec![
+        let mut next = vec![
             Block::Heading("What to do next"),
             Block::List { items: steps(self).into_iter().map(str::to_owned).collect(), numbered: true },
             Block::Small { words: BASIS.into(), most: 3 },
-            text("Kind of damage:", kind(self)),
         ];
+        next.extend(kind(self).map(|words| text("Kind of damage:", words)));
         blocks.push(Block::Beside(severity, next));
         blocks.push(Block::Heading("What the verdict rests on"));
         blocks.push(Block::Figure { draw: Box::new(|size| envelope(lead, size)), caption: caption(lead).into() });

@@ -70,8 +70,11 @@ pub(super) fn grade(of: &CustomerReport) -> (&'static str, String) {
         (true, Some(zone @ Zone::D)) => ("Severe:", format!("{}.", whole(zone))),
         (true, Some(zone @ Zone::C)) => ("Elevated:", format!("{}.", whole(zone))),
         (true, Some(zone)) => (
-            "Limited so far:",
-            format!("the bearing shows the damage, the machine as a whole does not (zone {}).", zone.name()),
+            "Not graded:",
+            format!(
+                "the bearing shows the damage, the vibration of the machine as a whole does not (zone {}). That is no sign that the damage is small.",
+                zone.name()
+            ),
         ),
         (true, None) => ("Not graded:", "the record gives no zone of ISO 20816-3.".into()),
         (false, Some(zone @ (Zone::C | Zone::D))) => {
@@ -118,7 +121,7 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
     }
     match (of.lead.verdict, of.lead.clarity) {
         (Verdict::Damage, "weak") => steps.extend([
-            "Do not exchange the bearing on this record alone.",
+            "Do not exchange the bearing on this record alone. Check the speed and the bearing's designation first: where one is wrong, something healthy may look like this.",
             "Measure again soon: longer, nearer to the bearing, at the same speed and load. A record from when the machine was healthy would decide most.",
             "Measure at shorter intervals until that is settled.",
         ]),
@@ -163,10 +166,17 @@ pub(super) const BASIS: &str =
     "By common practice in condition monitoring. No remaining life is given: one record does not tell it.";
 
 /// What kind of damage it is, as far as anybody says.
-pub(super) fn kind(of: &CustomerReport) -> String {
+/// `None` where there is no damage to be of a kind.
+pub(super) fn kind(of: &CustomerReport) -> Option<String> {
     match of.heading.kind {
-        Some(kind) => format!("as seen and stated by the author: {}. Vibration tells the part, not the kind.", kind.words()),
-        None => "not stated. Vibration tells the part, not the kind (fatigue, wear, corrosion, current, ...): that takes a look at the bearing, and is named by ISO 15243.".into(),
+        Some(kind) => Some(format!(
+            "as seen and stated by the author: {}. Vibration tells the part, not the kind.",
+            kind.words()
+        )),
+        None if of.lead.verdict == Verdict::Damage => Some(
+            "not stated. Vibration tells the part, not the kind (fatigue, wear, corrosion, current, ...). To know it, look at the bearing; ISO 15243 names the kinds.".into(),
+        ),
+        None => None,
     }
 }
 

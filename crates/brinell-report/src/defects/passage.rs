@@ -85,7 +85,8 @@ impl Passage<'_> {
                 false => what.to_owned(),
             };
             let at = |u: f64, delta: f64| self.model.effective_over(self.defect, side, u, delta);
-            let effective = over(&|u| 1e6 * at(u, delta)[0]);
+            // Where nothing touches a table goes on below 0 to keep its slope: no place of the element.
+            let effective = over(&|u| 1e6 * at(u, delta)[0].max(0.0));
             let healthy = over(&|_| 1e6 * delta);
             let both = vec![curve("damaged", effective), curve("healthy, δ", healthy)];
             panels.push(magnified(panel(&label("Effective δ"), "µm", both)));

@@ -18,6 +18,7 @@ use crate::orbit::{CageOrbits, cage_orbit};
 use crate::page::{Chapter, Figure, Piece};
 use crate::picture::Picture;
 use crate::plots;
+use crate::run::RINGS_BEFORE;
 use crate::sensor::{SensorView, sensor_response};
 use crate::slip::{SlipRow, slip_over_angle, slip_over_time, there_is};
 use crate::spectrogram::{Spectrogram, spectrogram as shades_of};
@@ -66,14 +67,19 @@ fn waveform(r: &Arc<Signals>) -> Vec<Piece> {
     }
     let events = match r.waveform.events.len() {
         0 => "No rolling element passes a defect while this signal was kept.",
-        _ => "Lines mark rolling elements (row·number) that enter and leave the defect.",
+        _ => "Lines mark rolling elements (row·number) that enter and leave the defect. ",
     };
     let name = if series.label.is_empty() { String::new() } else { format!("{}. ", escape(&series.label)) };
     let whole = "The whole run: smallest to largest value. The shaded stretch is shown below.";
     vec![
         still("overview", whole, r, plots::overview),
-        Piece::Figure(Figure::plot("waveform", name + events, r, plots::waveform)),
+        Piece::Figure(Figure::plot("waveform", format!("{name}{events}{}", filtered(r)), r, plots::waveform)),
     ]
+}
+
+/// What the anti-alias filter does to what a passing element excites.
+fn filtered(r: &Signals) -> &'static str {
+    if r.waveform.events.is_empty() { "" } else { RINGS_BEFORE }
 }
 
 fn spectrum(r: &Arc<Signals>) -> Vec<Piece> {
@@ -111,7 +117,11 @@ fn frequencies(page: &mut String, markers: &[Marker]) {
             Some(hz) => format!("{}; found, in pure rolling {} Hz", marker.meaning, significant(hz, 6)),
             None => marker.meaning.clone(),
         };
-        let present = if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" };
+        let present = match &*marker.label {
+            _ if marker.present => "<span class=\"tag assumed\">yes</span>",
+            "BPFO" | "BPFI" | "2 BSF" => "no",
+            _ => "–",
+        };
         let frequency = significant(marker.frequency_hz, 6);
         vec![escape(&marker.label), frequency, "Hz".into(), escape(&excitation), present.into()]
     };

@@ -6,14 +6,20 @@ use crate::number::short;
 use brinell::model::Model;
 use brinell::result::Parts;
 use brinell::scenario::Surface;
+use brinell_study::campaign::Level;
 
 /// "8.3 × 4 mm defect, outer race: 22.8 m/s² RMS, 4.1 times the healthy bearing’s; BPFO found at 248.9 Hz".
-pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {
+pub(super) fn lead(parts: &Parts, damage: &[Damage], spread: &[Level]) -> String {
     let model = parts.simulation.model();
     let mut said = Vec::new();
     if let Some(rms) = parts.findings.rms() {
+        let band = spread.iter().find(|level| level.name == format!("{}.rms", parts.findings.sensor));
+        let band = band.map_or(String::new(), |level| {
+            let [low, high] = level.band.map(|x| short(x, 2));
+            format!(" ({low} to {high} by what is assumed)")
+        });
         let times = healthy::times(parts).map_or(String::new(), |(words, _)| format!(", {words}"));
-        said.push(format!("{} m/s² RMS{times}", short(rms.value, 3)));
+        said.push(format!("{} m/s² RMS{band}{times}", short(rms.value, 3)));
     }
     for line in &parts.findings.lines {
         let words = match (line.found, &line.too_short) {

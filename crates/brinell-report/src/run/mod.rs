@@ -25,7 +25,7 @@ use brinell_study::campaign::Level;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;
-pub(crate) use signals::found_markers;
+pub(crate) use signals::{RINGS_BEFORE, found_markers};
 use signals::{envelope_spectrum, indicators, sensor_label, spectrum, waveform};
 use std::sync::Arc;
 use tables::{audits, facts, slip, solver_work};
@@ -36,7 +36,7 @@ impl Page {
     pub fn of_run(parts: &Parts, photos: &[Option<Photo>], spread: Option<&[Level]>) -> Self {
         let scenario = &parts.loaded.scenario;
         let damage = crate::defects::damage_of(scenario, None).map_err(|error| error.to_string());
-        let lead = lead::lead(parts, damage.as_deref().unwrap_or_default());
+        let lead = lead::lead(parts, damage.as_deref().unwrap_or_default(), spread.unwrap_or_default());
         let mut views = damage.map(|all| all.into_iter().map(|d| d.view).collect::<Vec<_>>());
         for (view, photo) in views.iter_mut().flatten().zip(photos) {
             view.photo.clone_from(photo);
@@ -71,7 +71,7 @@ impl Page {
             },
             lead,
             warnings: parts.warnings(),
-            facts: facts(parts),
+            facts: facts(parts, spread.unwrap_or_default()),
             chapters: all,
             ..Self::simulated()
         }

@@ -11,6 +11,10 @@ use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
 use std::f64::consts::TAU;
 
+/// What the anti-alias filter, whose delay is taken out, does to an impact.
+pub(crate) const RINGS_BEFORE: &str =
+    "The anti-alias filter is without delay: an impact also shows in the few samples before it.";
+
 /// Indicators that the table shows.
 const COLUMNS: [(Indicator, &str); 5] = [
     (Indicator::Rms, "RMS"),

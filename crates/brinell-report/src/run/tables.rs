@@ -9,10 +9,14 @@ use brinell::observe::{ChannelStatistics, DefectLine};
 use brinell::result::Parts;
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
+use brinell::signal::decimate::PASSBAND;
 use brinell::simulate::Outcome;
+use brinell_study::campaign::Level;
 
-pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
+/// `spread`: what assumed values do to the levels, where that was looked at.
+pub(super) fn facts(parts: &Parts, spread: &[Level]) -> Vec<Fact> {
     let mut facts = Vec::new();
+    let band_khz = 1e-3 * PASSBAND * parts.loaded.scenario.simulation.sample_rate_hz;
     if let Some(channel) = parts.findings.of_sensor() {
         for (indicator, label) in [
             (
@@ -29,9 +33,14 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
                 continue;
             };
             let unit = indicator.unit(channel.unit);
-            let note = e.interval.map_or("anti-aliased".to_owned(), |i| {
-                format!("anti-aliased; 95 %, scatter only: {} to {}", short(i.low, 3), short(i.high, 3))
-            });
+            let mut note = format!("0 to {} kHz", short(band_khz, 3));
+            if let Some(i) = e.interval {
+                note += &format!("; 95 %, scatter only: {} to {}", short(i.low, 3), short(i.high, 3));
+            }
+            let level = spread.iter().find(|level| level.name == format!("{}.{}", channel.name, indicator.name()));
+            if let Some([low, high]) = level.map(|level| level.band) {
+                note += &format!("; {} to {} by what is assumed", short(low, 3), short(high, 3));
+            }
             facts.push(Fact::new(label, short(e.value, 3), unit, note));
         }
     }

@@ -40,7 +40,7 @@ function inverse(chart, distance) {
 }
 
 function near(plot, place) {
-  const { chart } = plot, limit = 5 * pixel(plot);
+  const { chart } = plot, limit = Math.min(5 * pixel(plot), 0.02 * place); // pixels, and what a bearing's slip would explain
   const named = chart.toggles.flatMap(([label, f], k) => {
     const n = Math.round(place / f);
     return chart.picked.has(k) && !(chart.lanes.length && n <= chart.lanes[k].filter((m) => !m[3]).length) && n > 0 && Math.abs(n * f - place) <= limit ? [n === 1 ? label : `${n} × ${label}`] : [];

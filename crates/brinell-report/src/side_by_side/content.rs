@@ -79,6 +79,8 @@ type Wanted = (&'static str, &'static str, fn(&str) -> bool);
 
 /// The table whose numbers are of channels, some of them anti-aliased.
 const INDICATORS: &str = "indicators";
+/// The table whose numbers are the solver's own: their ratios say nothing of a bearing.
+const AUDITS: &str = "audits";
 
 const TABLES: [Wanted; 3] = [
     (INDICATORS, "Indicators", |name| {
@@ -91,7 +93,7 @@ const TABLES: [Wanted; 3] = [
     ("defects", "Defects, envelope and slip", |name| {
         ["defect", "envelope.", "row"].iter().any(|o| name.starts_with(o))
     }),
-    ("audits", "Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
+    (AUDITS, "Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
 ];
 
 /// The first number in a sentence: "RMS of sensor_ax in b is 0.368 (0.363 to 0.373), in c 1.2 (1.1 to 1.3) times that in a."
@@ -235,12 +237,14 @@ fn cut(text: &str) -> String {
 
 /// Values of each run, and ratios to the baseline's.
 fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table {
-    let of_channels = id == INDICATORS;
+    let (of_channels, measured) = (id == INDICATORS, id != AUDITS);
     let mut columns = vec!["Quantity".to_owned()];
     columns.extend(of_channels.then(|| "Signal".to_owned()));
     columns.push("Unit".to_owned());
     columns.extend(names.iter().map(|name| format!("#{name}")));
-    columns.extend(names.iter().skip(1).map(|name| format!("#{name} / {}", names[0])));
+    if measured {
+        columns.extend(names.iter().skip(1).map(|name| format!("#{name} / {}", names[0])));
+    }
     let rows = rows.iter().map(|c| {
         let mut row = vec![c.name.clone()];
         row.extend(of_channels.then(|| signal(&c.name).to_owned()));
@@ -248,10 +252,20 @@ fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table
         let value = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), value_text);
         row.extend(c.of.iter().map(value));
         let ratio = |r: &Option<Ratio>| r.map_or("–".into(), with_interval);
-        row.extend(c.ratios.iter().skip(1).map(ratio));
+        if measured {
+            row.extend(c.ratios.iter().skip(1).map(ratio));
+        }
         row
     });
-    let mut note = "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals, scatter only; peaks are those of a revolution. \
+    if !measured {
+        return Table::new(
+            title,
+            columns,
+            rows,
+            "What the laws of conservation leave over, and the solver's work, of each run.",
+        );
+    }
+    let mut note = "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals, scatter only: what is assumed is not in them (`brinell compare --spread`); peaks are those of a revolution. \
          Ratios are of the values beside them; their intervals suppose runs that scatter independently."
         .to_owned();
     if of_channels {

@@ -4,7 +4,7 @@ use crate::data::{Along, Marker};
 use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
 use crate::page::Piece;
-use crate::run::found_markers;
+use crate::run::{RINGS_BEFORE, found_markers};
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
@@ -164,6 +164,11 @@ pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
     format!("defect {} ({place})", defect + 1)
 }
 
+/// Why a run has no curve over a defect.
+fn missing(runs: usize) -> &'static str {
+    if runs > 0 { " A run without a curve has no such damage, or no pass over it was kept." } else { "" }
+}
+
 /// Name of the picture, quantity, unit, and how a point of a pass gives it.
 type OverDefect = (&'static str, &'static str, &'static str, fn(&PassPoint) -> f64);
 
@@ -194,7 +199,10 @@ pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) 
         Piece::Curves(overlay, names.to_vec())
     };
     let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
-    pieces.push(Piece::Note("The pass with the largest contact force of each run, step by step of the solver.".into()));
+    let missing = missing(passes.iter().filter(|pass| pass.is_none()).count());
+    pieces.push(Piece::Note(format!(
+        "The pass with the largest contact force of each run, step by step of the solver.{missing}"
+    )));
     pieces
 }
 
@@ -224,8 +232,9 @@ pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usiz
         let name = format!("defect{}-{word}", defect + 1);
         let overlay = Overlay {
             note: format!(
-                "Synchronous average of the sensor acceleration over {} instants of {word}.",
-                counts.join(" and ")
+                "Synchronous average of the sensor acceleration over {} instants of {word}. {RINGS_BEFORE}{}",
+                counts.join(" and "),
+                missing(names.len() - counts.len()),
             ),
             ..Overlay::new(name, (&labels[0], "ms"), (&labels[1], "m/s^2"), curves)
         };

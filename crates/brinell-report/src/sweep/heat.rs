@@ -49,6 +49,7 @@ pub(crate) fn heat_map(map: &HeatMap, layout: Layout) -> Option<Picture> {
     let names = map.y_names.iter();
     let widest = names.map(|name| font::width(name, size.font, false));
     let left = widest.fold(0.0, f64::max).min(0.25 * size.width) + 2.6 * size.font;
+    let y_label = font::fitted(&map.y_label, size.font, false, size.height);
     let mut chart = Chart::new(Spec {
         left,
         right: SCALE_MARGIN * size.font,
@@ -58,7 +59,7 @@ pub(crate) fn heat_map(map: &HeatMap, layout: Layout) -> Option<Picture> {
             format!("{} over {} and {}", map.label, map.x_label, map.y_label),
             size,
             (Domain::exact(0.0, columns as f64), "", ""),
-            (Domain::exact(0.0, rows as f64), &map.y_label, ""),
+            (Domain::exact(0.0, rows as f64), &y_label, ""),
         )
     });
     chart.clear("ticks-x");

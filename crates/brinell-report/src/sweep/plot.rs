@@ -177,6 +177,8 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
     // The values say whether; the ends of intervals are shown, and those of 0 or less only a linear axis shows.
     let spread = Domain::over_decades(points().map(|p| p.value), DECADES);
     let y = spread.and_then(|_| Domain::over_decades(heights(), DECADES)).unwrap_or_else(|| y_domain(heights()));
+    // Of several plots some are and others are not.
+    let label = if y.log { format!("{}, logarithmic", plot.label) } else { plot.label.clone() };
     let beside = plot.shown_limits().map(|(_, words)| font::width(words, size.font, false)).fold(0.0, f64::max);
     let x = if named {
         Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
@@ -192,7 +194,7 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
             format!("{} over {}", plot.label, plot.x_label),
             size,
             (x, &plot.x_label, &plot.x_unit),
-            (y, &plot.label, &plot.unit),
+            (y, &label, &plot.unit),
         )
     }
 }

@@ -23,7 +23,8 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
     let described = |(value, x, line): &(f64, f64, String)| {
         let at = match plot.x_names.get(*x as usize) {
             Some(name) => name.clone(),
-            None => significant(*x, 4),
+            None if plot.x_unit.is_empty() => significant(*x, 4),
+            None => format!("{} {}", significant(*x, 4), raised(&plot.x_unit)),
         };
         let beside = match (plot.lines.len(), line.is_empty(), plot.legend.is_empty()) {
             (2.., false, false) => format!(", {} = {line}", plot.legend),
@@ -45,13 +46,22 @@ pub fn sweep_legend(plots: &[IndicatorPlot]) -> String {
     let points = || lines().flat_map(|line| &line.points);
     let mut parts = Vec::new();
     if points().any(|p| p.interval.is_some()) {
-        parts.push("Dots: averages over whole revolutions, with their 95 % intervals, scatter only.");
+        parts.push(
+            "Dots: averages over whole revolutions, with their 95 % intervals, scatter only: levels hang on what is assumed too \
+             (`brinell run --spread`).",
+        );
     }
     if points().any(|p| p.interval.is_none() && p.value.is_finite()) {
         parts.push("Rings: a value without an interval.");
     }
     if points().any(|p| !p.value.is_finite()) {
         parts.push("Crosses on the axis: no value.");
+    }
+    if plots.iter().any(|plot| plot.name.starts_with("envelope.")) {
+        parts.push(
+            "One line of an envelope spectrum says little of the size of damage: where entry and exit lie half a pass apart it vanishes, and its second \
+             harmonic (`--plot envelope.bpfo_x2`) rises.",
+        );
     }
     if plots.iter().any(|plot| plot.lines.len() > 1) {
         parts.push("Points are shifted a little sideways, so that their intervals do not overlap.");

@@ -154,7 +154,7 @@ fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
     let report = Page { lead: sweep_lead(&plots), ..study(vec![Piece::Map(map)]) };
     let page = html(&report);
     for part in [
-        "RMS of sensor_ax: from 3 m/s² (operation.speed_rpm = 1000) to 5 m/s² (operation.speed_rpm = 2000).",
+        "RMS of sensor_ax: from 3 m/s² (operation.speed_rpm = 1000 r/min) to 5 m/s² (operation.speed_rpm = 2000 r/min).",
         "RMS &lt;of&gt;",
         "data-name=\"map\"",
     ] {

@@ -37,6 +37,8 @@ pub struct Elsewhere {
     pub modulation: f64,
     /// The frequency of the bearing that lies nearest, where that is within three tolerances.
     pub nearest: Option<Nearest>,
+    /// Where the lines of the race that leads are every second, third... of its own: which race's, and which.
+    pub every: Option<(&'static str, usize)>,
 }
 
 /// A frequency of the bearing near a comb, farther off than the tolerance.
@@ -96,7 +98,8 @@ impl Search<'_> {
         let places = places.filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead));
         let highest = Highest::of(places, depth).filter(|h| h.height > shallow)?;
         let (frequency, modulation) = (by_lines(together, highest.middle()), highest.height);
-        Some(Elsewhere { frequency, score: score(together, frequency), modulation, nearest: self.nearest(frequency) })
+        let (score, nearest) = (score(together, frequency), self.nearest(frequency));
+        Some(Elsewhere { frequency, score, modulation, nearest, every: None })
     }
 
     /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that excites a
@@ -121,13 +124,12 @@ impl Search<'_> {
             score,
             modulation: lines(together, frequency, None).modulation,
             nearest: None,
+            every: Some((lead.name, (lead.frequency / frequency).round() as usize)),
         })
     }
 
     fn nearest(&self, frequency: f64) -> Option<Nearest> {
-        let raceways = (self.options.orders.defect_frequencies())
-            .filter(|(component, name, _)| *component != Component::Cage && *name != "BSF");
-        raceways
+        (self.options.orders.impacts())
             .map(|(component, name, order)| {
                 let shift = frequency / (order * self.shaft) - 1.0;
                 Nearest { component, name, shift, shaft: frequency / order, slip: lag(component, shift, self.options) }

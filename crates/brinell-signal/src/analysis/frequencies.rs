@@ -187,6 +187,11 @@ impl DefectOrders {
         .into_iter()
         .filter_map(|(component, name, order)| Some((component, name, order?)))
     }
+
+    /// Those at which damage of a raceway or an element has its impacts: BPFO, BPFI and 2 BSF.
+    pub(super) fn impacts(&self) -> impl Iterator<Item = (Component, &'static str, f64)> + use<> {
+        self.defect_frequencies().filter(|(component, name, _)| *component != Component::Cage && *name != "BSF")
+    }
 }
 
 /// A bearing of a public data set, a paper or a maker's table, known by its frequencies alone.

@@ -67,7 +67,7 @@ pub fn to_json(
     comparison: Option<&Comparison>,
 ) -> Value {
     let view = &analysis.view;
-    let comb = |Elsewhere { frequency, score, modulation, nearest }: Elsewhere| {
+    let comb = |Elsewhere { frequency, score, modulation, nearest, .. }: Elsewhere| {
         let (frequency_hz, order) = (frequency, frequency / analysis.shaft);
         Comb { frequency_hz, order, score, modulation, nearest }
     };

@@ -51,12 +51,16 @@ const PIECES: f64 = 25.0;
 const PASSING: &str = "Rollers that enter the load of a healthy bearing cause lines of its race too, and modulate the envelope as much where \
                        there is little noise: compare with a run of the healthy bearing.";
 
+/// Why damage is called weakly where the shaft's lines do not fit.
+const OTHER_RATE: &str = "Are speed and sample rate right? The shaft's lines fit another speed or rate better, at which these lines may be another part's.";
+
 impl Analysis {
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
-        let other_rate = self.flaws.iter().any(|(_, f)| matches!(f, Flaw::OtherRate { .. }));
-        let may_be_other =
-            self.may_be_passing(family) || self.impacts_a_turn(family).is_some() || self.is_in_pieces() || other_rate;
+        let may_be_other = self.may_be_passing(family)
+            || self.impacts_a_turn(family).is_some()
+            || self.is_in_pieces()
+            || self.asks_for_rate();
         let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
         let doubt = lost || self.speed_used().is_some() || self.slips(family).is_some();
         let is_sure = self.speed_is_told() && !doubt;
@@ -65,6 +69,11 @@ impl Analysis {
             (_, true) => "very clear",
             _ => "clear",
         }
+    }
+
+    /// Whether the lines of the shaft fit another sample rate or speed better.
+    fn asks_for_rate(&self) -> bool {
+        self.flaws.iter().any(|(_, f)| matches!(f, Flaw::OtherRate { .. }))
     }
 
     /// Whether the records are several, too short for their lines to be told from others', and nothing tells the speed.
@@ -272,6 +281,9 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
         }));
         if analysis.may_be_passing(family) {
             text.push(PASSING.into());
+        }
+        if analysis.asks_for_rate() {
+            text.push(OTHER_RATE.into());
         }
         text.extend(multiple(analysis, family).or_else(|| inverter(analysis, family)));
         if analysis.is_in_pieces() {

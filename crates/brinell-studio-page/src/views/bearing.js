@@ -263,7 +263,7 @@ export class BrinellBearing extends View {
     if (!room || !ready) return;
     this.paint(room.pen, room.width, room.height, this.colours);
     const largest = this.motion?.state.largest ?? 0;
-    this.told.textContent = this.motion?.clip ? `largest contact force ${short(largest, 3)} N` : "";
+    this.told.textContent = this.motion?.clip ? `largest contact force ${short(largest, 3)} N` : "at rest until it has settled";
   }
   /** @param {import("./pen.js").Pen} pen @param {number} width @param {number} height @param {import("./theme.js").Colours} colours */
   paint(pen, width, height, colours) {
@@ -273,7 +273,7 @@ export class BrinellBearing extends View {
     const all = Array.from({ length: shape.rows }, (_, k) => k),
       shown = this.which === "both" ? all : [Number(this.which)];
     const full = this.limit.hold(motion.largest),
-      words = `${short(full, 3)} N`,
+      words = motion.clip ? `${short(full, 3)} N` : "–",
       damaged = this.marks.length > 0;
     const foot = paintLegend(null, 8, 0, width - 16, colours, words, damaged),
       room = height - foot - 6;
@@ -289,7 +289,7 @@ export class BrinellBearing extends View {
       const x = w * ((index % across) + 0.5),
         y = h * Math.floor(index / across) + head + (h - head) / 2;
       const stage = { x, y, scale, colours, perNewton };
-      if (motion.clip) paintRow(pen, stage, shape, motion.state.rows[k], motion.state.ring, this.arcs[k] ?? []);
+      paintRow(pen, stage, shape, motion.state.rows[k], motion.state.ring, this.arcs[k] ?? []);
       paintLoad(pen, stage, shape, this.towards);
       if (!head) return;
       pen.font = font(11, 600);

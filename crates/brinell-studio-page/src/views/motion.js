@@ -37,9 +37,10 @@ export class Motion {
     this.state = {
       ring: 0,
       largest: 0,
+      // Until there is a clip: at rest, evenly spaced.
       rows: Array.from({ length: rows }, () => ({
         cage: 0,
-        orbit: new Float32Array(elements),
+        orbit: Float32Array.from({ length: elements }, (_, e) => (TAU * (e + 0.5)) / elements),
         spin: new Float32Array(elements),
         inner: new Float32Array(elements),
         outer: new Float32Array(elements),

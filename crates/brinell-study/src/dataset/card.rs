@@ -85,6 +85,27 @@ fn description(about: &About) -> String {
     )
 }
 
+/// Fence of a file within the card.
+const FENCE: &str = "`````";
+
+/// The bearing, the signals' rate and length where all runs have the same, and what a result on it is worth.
+fn what(about: &About) -> String {
+    let preset = about.geometry.keys.iter().find(|key| key.key == "bearing.preset").and_then(|key| key.value.as_ref());
+    let said = [
+        preset.map(|name| format!("Bearing: {}.", name.trim_matches('"'))),
+        about.rate.sample_rate_hz.map(|hz| format!("Sample rate: {hz} Hz.")),
+        about.rate.duration_s.map(|s| format!("Length: {s} s.")),
+    ];
+    let said: Vec<String> = said.into_iter().flatten().collect();
+    format!(
+        "{} It is simulated: what a model reaches on it is no evidence of what it reaches on a measured machine. `brinell dataset sheet` on this folder draws some \
+         runs of each class.",
+        said.join(" ")
+    )
+    .trim_start()
+    .to_owned()
+}
+
 /// How many runs have signals, by class and by split; and what the user should know of others.
 fn counts(about: &About) -> String {
     let mut tally = Tally::default();
@@ -149,7 +170,7 @@ fn card(about: &About) -> String {
     if !about.truth.is_empty() {
         card += &config(TRUTH, paths.iter().map(|(split, _, truth)| (split, truth)).collect());
     }
-    let _ = write!(card, "---\n\n# {}\n\n{}\n\n", one_line(&about.name), description(about));
+    let _ = write!(card, "---\n\n# {}\n\n{}\n\n{}\n\n", one_line(&about.name), description(about), what(about));
     card += &counts(about);
     let signals = about.columns.iter().filter(|c| c.is_signal());
     let signals: Vec<String> = signals.map(|c| format!("`{}` ({})", c.name, c.unit)).collect();
@@ -166,6 +187,13 @@ fn card(about: &About) -> String {
     );
     if let Some(histories) = &about.histories {
         card += &life(histories);
+    }
+    if let Some(sources) = &about.sources {
+        let _ = write!(
+            card,
+            "\n## What varies\n\nThe plan; damage of a random outline may be deeper in places than its `depth_um`.\n\n{FENCE}toml\n{}\n{FENCE}\n",
+            sources.plan.trim_end()
+        );
     }
     if about.splits.iter().any(|split| split.name == Part::HeldOut.word()) {
         card +=

@@ -62,7 +62,7 @@ pub use scenario_schema::json_schema;
 pub use source::NOT_GIVEN;
 pub use source::{canonical, locate};
 #[doc(hidden)]
-pub use spec::unit_of_key;
+pub use spec::{quantity_of_key, unit_of_key};
 #[doc(hidden)]
 pub use toml_text::{float as toml_float, quote as toml_quote};
 

@@ -158,6 +158,15 @@ pub fn unit_of_key(path: &str) -> &'static str {
     path.rsplit('.').find(named).map_or("", unit_of)
 }
 
+/// What a key's path is of, in words, without tables and unit: "length" of `defects.0.shape.rectangle.length_mm`, "load.1" of `operation.load_n.1`.
+pub fn quantity_of_key(path: &str) -> String {
+    let named = |part: &str| !part.bytes().all(|b| b.is_ascii_digit());
+    let parts: Vec<&str> = path.split('.').collect();
+    let at = parts.iter().rposition(|part| named(part)).unwrap_or(0);
+    let name = without_unit(parts[at]).unwrap_or(parts[at]).replace('_', " ");
+    [&[name.as_str()], &parts[at + 1..]].concat().join(".")
+}
+
 const fn ends_with(name: &[u8], suffix: &[u8]) -> bool {
     if name.len() < suffix.len() {
         return false;

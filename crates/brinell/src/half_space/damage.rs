@@ -29,16 +29,23 @@ fn span(defect: &Defect) -> [f64; 2] {
 /// Gathers defects into what is met together: on one surface of one row, nearer to each other along s than `reach` (m) of either, the
 /// length over which a contact feels damage before its first edge: the places of each group's members, rising.
 pub fn gather(defects: &[Defect], reach: impl Fn(&Defect) -> f64) -> Vec<Vec<usize>> {
+    // What is asked of each pair is known of each defect first: thousands make millions of pairs.
+    let felt: Vec<[f64; 2]> = defects
+        .iter()
+        .map(|d| {
+            let ([first, last], reach) = (span(d), reach(d));
+            [first - reach, last + reach]
+        })
+        .collect();
     let mut group: Vec<usize> = (0..defects.len()).collect();
     for a in 0..defects.len() {
         for b in 0..a {
             let (one, other) = (&defects[a], &defects[b]);
-            if one.surface != other.surface || one.row != other.row {
+            if group[a] == group[b] || one.surface != other.surface || one.row != other.row {
                 continue;
             }
-            let (apart, near) = (offset(one, other), reach(one) + reach(other));
-            let ([first, last], [from, to]) = (span(one).map(|s| s + apart), span(other));
-            if first < to + near && from < last + near {
+            let ([first, last], [from, to]) = (felt[a].map(|s| s + offset(one, other)), felt[b]);
+            if first < to && from < last {
                 let (keep, join) = (group[b], group[a]);
                 group.iter_mut().filter(|g| **g == join).for_each(|g| *g = keep);
             }

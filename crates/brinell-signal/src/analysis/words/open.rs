@@ -1,6 +1,7 @@
 //! Why a verdict is open, in words.
 
 use super::super::drift::Drift;
+use super::super::elsewhere::Nearest;
 use super::super::family::{Family, Finding, reach};
 use super::super::together::{MAINS_HZ, REVOLUTIONS};
 use super::super::{Analysis, Component, Elsewhere, Unexplained};
@@ -172,16 +173,6 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
 
 /// Lines that no frequency of this bearing explains.
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
-    let nearest = elsewhere.nearest.map_or(String::new(), |n| {
-        format!(
-            " {} is {:.2} % {}: at {:.0} r/min{} it would be there.",
-            n.name,
-            100.0 * n.shift.abs(),
-            if n.shift > 0.0 { "lower" } else { "higher" },
-            60.0 * n.shaft,
-            n.slip.map_or(String::new(), |slip| format!(", or a cage that slips by {:.1} %,", 100.0 * slip))
-        )
-    });
     // The shaft's own lines tell its speed.
     let order = elsewhere.frequency / analysis.shaft;
     if (order - 1.0).abs() <= analysis.options.tolerance {
@@ -193,19 +184,76 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
             record_of_speed(analysis),
         );
     }
-    let record = if analysis.has_record_of_speed() { "" } else { ", and a record of the speed" };
-    let doubt = match analysis.shaft_lines.is_empty() || analysis.options.is_other_speed(analysis.shaft) {
-        true if record.is_empty() => "Is it this bearing, and the recorded speed its shaft's?",
-        true => "Are speed and bearing right?",
-        false => "Is it this bearing? The shaft's own lines agree with the speed.",
+    let recorded = analysis.has_record_of_speed();
+    if let Some((name, which)) = elsewhere.every {
+        return format!(
+            "Cannot tell: the lines of {name} are one in {which} of a comb at {:.2} Hz, {order:.3} times the shaft's speed, and this bearing has no frequency there. \
+             {} The frequencies of the machine's other bearings and gears would tell{}.",
+            elsewhere.frequency,
+            if recorded {
+                "Is it this bearing, and the recorded speed its shaft's?"
+            } else {
+                "Are speed and bearing right?"
+            },
+            if recorded { "" } else { ", and a record of the speed" },
+        );
+    }
+    let (near, doubt) = match (lines_agree(analysis), recorded) {
+        (true, _) => {
+            (nearest_frequency(elsewhere, false), "Is it this bearing? The shaft's own lines agree with the speed.")
+        }
+        (_, true) => (nearest_frequency(elsewhere, true), "Is it this bearing, and the recorded speed its shaft's?"),
+        _ => (speeds_if_its(analysis, elsewhere), "Is one of these the speed, and is it this bearing?"),
     };
     format!(
-        "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{nearest} {doubt} \
-         The frequencies of the machine's other bearings and gears would tell{record}.",
+        "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {order:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{near} {doubt} \
+         The frequencies of the machine's other bearings and gears would tell{}.",
         elsewhere.frequency,
-        elsewhere.frequency / analysis.shaft,
         100.0 * elsewhere.modulation,
+        if recorded { "" } else { ", and a record of the speed" },
     )
+}
+
+/// How far off the frequency of the bearing is that lies nearest, and at which speed it would be there where that is open.
+fn nearest_frequency(elsewhere: &Elsewhere, speed_is_open: bool) -> String {
+    elsewhere.nearest.map_or(String::new(), |n| {
+        let at = match speed_is_open {
+            true => format!(": at {:.0} r/min{} it would be there", 60.0 * n.shaft, slipping(n)),
+            false => slipping(n),
+        };
+        let direction = if n.shift > 0.0 { "lower" } else { "higher" };
+        format!(" {} is {:.2} % {direction}{at}.", n.name, 100.0 * n.shift.abs())
+    })
+}
+
+/// Whether the shaft's own lines agree with the speed given.
+fn lines_agree(analysis: &Analysis) -> bool {
+    !analysis.shaft_lines.is_empty() && !analysis.options.is_other_speed(analysis.shaft)
+}
+
+impl Analysis {
+    /// At which speeds a comb at no frequency of the bearing would be one of damage, in a sentence; `None` where something tells the speed.
+    pub fn speeds_of_comb(&self) -> Option<String> {
+        let elsewhere = self.elsewhere.as_ref().filter(|e| e.every.is_none())?;
+        if self.has_record_of_speed() || lines_agree(self) {
+            return None;
+        }
+        Some(speeds_if_its(self, elsewhere).trim().to_owned())
+    }
+}
+
+/// At which speeds each frequency of damage would be there.
+fn speeds_if_its(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
+    let speeds = analysis.options.orders.impacts().map(|(component, name, order)| {
+        let slip = elsewhere.nearest.filter(|n| n.component == component).map_or(String::new(), slipping);
+        format!("{name} at {:.0} r/min{slip}", 60.0 * elsewhere.frequency / order)
+    });
+    format!(" It would be {}.", speeds.collect::<Vec<_>>().join(", "))
+}
+
+/// The slip of the cage that would do the same as another speed.
+fn slipping(nearest: Nearest) -> String {
+    nearest.slip.map_or(String::new(), |slip| format!(" (or with a cage that slips by {:.1} %)", 100.0 * slip))
 }
 
 /// What is asked for where the speed is not sure: a record of it, unless there is one.

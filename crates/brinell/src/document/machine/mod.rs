@@ -62,6 +62,7 @@ pub(super) fn read(text: &str, root: &Table) -> Result<Loaded, Vec<Problem>> {
                 if !all && !concerns(&problem.key) {
                     continue;
                 }
+                tables::with_keys_of_a_seat(&mut problem);
                 problem.key = rename(&problem.key);
                 problem.also.iter_mut().for_each(|(key, _)| *key = rename(key));
                 if !problems.contains(&problem) {
