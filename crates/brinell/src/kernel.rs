@@ -16,8 +16,8 @@ pub enum Kernel {
     /// One roller at a time, with the standard library's sine, exponential and tanh. Several times slower than the
     /// others.
     Plain,
-    /// What every processor of the target computes to the same bits: as by SSE2 on x86-64, with the registers of AVX2
-    /// where it has them; NEON on 64-bit Arm.
+    /// Every product is rounded, so that all processors of a target compute the same bits: in registers of AVX2 on x86-64, where
+    /// a processor without them has [`Kernel::Plain`] alone; of NEON on 64-bit Arm.
     Portable,
     /// AVX2 and FMA.
     Avx2,
@@ -58,13 +58,15 @@ impl Kernel {
     pub fn is_there(self) -> bool {
         #[cfg(target_arch = "x86_64")]
         {
-            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            let rounded = is_x86_feature_detected!("avx2");
+            let avx2 = rounded && is_x86_feature_detected!("fma");
             let avx512 = avx2
                 && is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512dq")
                 && is_x86_feature_detected!("avx512vl");
             match self {
-                Self::Plain | Self::Portable => true,
+                Self::Plain => true,
+                Self::Portable => rounded,
                 Self::Avx2 => avx2,
                 Self::Avx512 => avx512,
             }
@@ -77,7 +79,7 @@ impl Kernel {
 
     /// The widest that this processor can run.
     pub fn fastest() -> Self {
-        Self::ALL.into_iter().rev().find(|k| k.is_there()).unwrap_or(Self::Portable)
+        Self::ALL.into_iter().rev().find(|k| k.is_there()).unwrap_or(Self::Plain)
     }
 
     /// The kernel of a value of [`SETTING`]; the fastest where it is empty.

@@ -29,9 +29,9 @@ macro_rules! dispatched {
                     Kernel::Avx512 => return unsafe { avx512::<N>($($arg),*) },
                     // SAFETY: as above.
                     Kernel::Avx2 => return unsafe { avx2::<N>($($arg),*) },
-                    // SAFETY: the processor has been asked.
-                    _ if is_x86_feature_detected!("avx2") => return unsafe { rounded::<N>($($arg),*) },
-                    Kernel::Plain | Kernel::Portable => {}
+                    // SAFETY: as above.
+                    Kernel::Portable => return unsafe { rounded::<N>($($arg),*) },
+                    Kernel::Plain => {}
                 }
             }
             $body::<Portable, N>($($arg),*)

@@ -15,9 +15,11 @@ mod waves;
 
 use super::{Kernel, Model, Workspace};
 use crate::defect::Side;
+use crate::lanes::Lanes;
+#[cfg(any(test, not(target_arch = "x86_64")))]
+use crate::lanes::Portable;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Avx2, Avx512, Rounded};
-use crate::lanes::{Lanes, Portable};
 use sums::Turn;
 
 /// Accelerations at (t, y), compiled for the instructions that the workspace's kernel names.
@@ -30,10 +32,11 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         // SAFETY: as above.
         Kernel::Avx2 => unsafe { with_avx2(model, t, y, a, ws) },
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: the processor has been asked.
-        Kernel::Portable if is_x86_feature_detected!("avx2") => unsafe { with_rounded(model, t, y, a, ws) },
-        Kernel::Plain => equations::<f64>(model, t, y, a, ws),
-        _ => equations::<Portable>(model, t, y, a, ws),
+        // SAFETY: as above.
+        Kernel::Portable => unsafe { with_rounded(model, t, y, a, ws) },
+        #[cfg(not(target_arch = "x86_64"))]
+        Kernel::Portable => equations::<Portable>(model, t, y, a, ws),
+        _ => equations::<f64>(model, t, y, a, ws),
     }
 }
 
@@ -49,7 +52,7 @@ fn with_avx2(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace
     equations::<Avx2>(model, t, y, a, ws);
 }
 
-/// What [`Portable`] computes, to the bit.
+/// What the portable lanes compute, to the bit.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn with_rounded(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
