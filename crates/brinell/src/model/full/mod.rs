@@ -85,13 +85,13 @@ pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64
     ws.power = sums.power;
 }
 
-#[cfg(all(test, target_arch = "x86_64"))]
+#[cfg(test)]
 mod tests {
-    use super::*;
-
     /// What a machine without AVX2 prints, one with it prints: the book's numbers and pictures hang on it.
     #[test]
+    #[cfg(target_arch = "x86_64")]
     fn prop_the_portable_kernel_has_the_same_bits_with_avx2() {
+        use super::*;
         if !is_x86_feature_detected!("avx2") {
             return;
         }
