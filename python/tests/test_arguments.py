@@ -99,7 +99,7 @@ def test_prop_a_column_of_times_gives_the_rate(tmp_path):
     path = tmp_path / "own.csv"
     path.write_text("time [s],acc [g]\n" + "".join(f"{k / 1000},{(-1) ** k}\n" for k in range(100)))
     found = brinell.read_signal(path)
-    assert (found.channel, found.rate_hz, found.unit) == ("acc", pytest.approx(1000.0), "g")
+    assert (found.channel, found.rate_hz, found.unit) == ("acc [g]", pytest.approx(1000.0), "g")
 
 
 def test_prop_a_sweep_takes_the_commands_ranges(base):

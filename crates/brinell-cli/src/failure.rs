@@ -3,18 +3,8 @@
 use crate::say::complain;
 use brinell::document::{Problem, on_one_line, one_line, render_diagnostics};
 use brinell::model::ModelError;
-use brinell_io::IoError;
-use std::io::ErrorKind;
+use brinell_io::{IoError, why_unread};
 use std::path::PathBuf;
-
-/// Why a file cannot be read, without the system's number where words say it.
-fn why(error: &std::io::Error) -> String {
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such file".into(),
-        ErrorKind::IsADirectory => "it is a folder; expected a file".into(),
-        _ => error.to_string(),
-    }
-}
 
 /// What the command ends with: the number is for the process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +36,7 @@ pub(crate) enum Failure {
     #[error("{0}")]
     Usage(String),
     /// A file cannot be read.
-    #[error("cannot read {}: {why}", .0.display(), why = why(.1))]
+    #[error("cannot read {}: {why}", .0.display(), why = why_unread(.1))]
     Read(PathBuf, std::io::Error),
     /// A result cannot be written.
     #[error(transparent)]
@@ -134,12 +124,11 @@ pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::ErrorKind;
 
     /// As the help says: 1 for a result that could not be written, 2 for a place that is none.
     #[test]
     fn regress_a_place_without_permission_is_a_failed_write() {
-        let (path, source) = (|| PathBuf::from("out"), || ErrorKind::PermissionDenied.into());
+        let (path, source) = (|| PathBuf::from("out"), || std::io::ErrorKind::PermissionDenied.into());
         let code = |error: IoError| Failure::from(error).code();
         assert_eq!(code(IoError::NotPermitted { path: path(), source: source() }), ExitCode::FAILURE);
         assert_eq!(code(IoError::NotAFileName { path: path() }), ExitCode::BAD_INPUT);

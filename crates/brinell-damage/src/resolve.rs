@@ -325,7 +325,7 @@ fn largest(shape: &Shape) -> u64 {
 }
 
 pub(crate) fn read_bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
-    let failed = |error| format!("cannot read {}: {error}", path.display());
+    let failed = |error| format!("cannot read {}: {}", path.display(), brinell_io::why_unread(&error));
     let facts = std::fs::metadata(path).map_err(failed)?;
     if !facts.is_file() {
         return Err(format!("{} is not a plain file", path.display()));

@@ -59,7 +59,7 @@ pub enum IoError {
         path: PathBuf,
     },
     /// A failure to read.
-    #[error("{}: cannot read: {source}", path.display())]
+    #[error("{}: cannot read: {}", path.display(), why_unread(source))]
     Read {
         /// The file.
         path: PathBuf,
@@ -300,6 +300,15 @@ impl IoError {
     /// A system error met while reading `path`.
     pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
         Self::Read { path: path.to_owned(), source }
+    }
+}
+
+/// Why a file cannot be read, without the system's number where words say it.
+pub fn why_unread(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".into(),
+        io::ErrorKind::IsADirectory => "it is a folder; expected a file".into(),
+        _ => error.to_string(),
     }
 }
 

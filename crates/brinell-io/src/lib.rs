@@ -56,7 +56,7 @@ mod write;
 
 #[doc(hidden)]
 pub use atomic::{Complete, atomic_copy, atomic_prepare, atomic_write, lock};
-pub use error::IoError;
+pub use error::{IoError, why_unread};
 pub use file_kind::FileKind;
 pub use format::{Format, MemoryWriter};
 #[doc(hidden)]

@@ -25,7 +25,7 @@ pyo3::create_exception!(brinell, SignalError, PyValueError, "A signal that canno
 
 /// A file that could not be opened, as the command says it.
 pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> PyErr {
-    ReadError::new_err(format!("cannot read {}: {error}", path.display()))
+    ReadError::new_err(format!("cannot read {}: {}", path.display(), brinell_io::why_unread(error)))
 }
 
 /// What is wrong with a scenario; `seen` is the name and text of a file that its author can look at.

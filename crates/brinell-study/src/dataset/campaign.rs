@@ -98,9 +98,11 @@ impl Campaign {
         let folder = plan.path.parent().unwrap_or(Path::new(""));
         let base = Document::open(&folder.join(&read.base)).map_err(|error| match error {
             // The file is the plan's to name.
-            DatasetError::Read { path, error } => {
-                plan.problem_of("base", &read.base, &format!("cannot read {}: {error}", path.display()))
-            }
+            DatasetError::Read { path, error } => plan.problem_of(
+                "base",
+                &read.base,
+                &format!("cannot read {}: {}", path.display(), brinell_io::why_unread(&error)),
+            ),
             other => other,
         })?;
         let draws = Draws::new(read).map_err(|problems| {

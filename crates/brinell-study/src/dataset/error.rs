@@ -22,7 +22,7 @@ pub enum DatasetError {
     #[error("{0}")]
     Refused(String),
     /// A file cannot be read.
-    #[error("cannot read {}: {error}", path.display())]
+    #[error("cannot read {}: {}", path.display(), brinell_io::why_unread(error))]
     Read {
         /// The file.
         path: PathBuf,
