@@ -16,8 +16,8 @@ pub enum Kernel {
     /// One roller at a time, with the standard library's sine, exponential and tanh. Several times slower than the
     /// others.
     Plain,
-    /// Every product is rounded, so that all processors of a target compute the same bits: in registers of AVX2 on x86-64, where
-    /// a processor without them has [`Kernel::Plain`] alone; of NEON on 64-bit Arm.
+    /// All processors of a target that have it compute the same bits: AVX2 on x86-64, where every product is rounded and a
+    /// processor without AVX2 has [`Kernel::Plain`] alone; NEON on 64-bit Arm.
     Portable,
     /// AVX2 and FMA.
     Avx2,

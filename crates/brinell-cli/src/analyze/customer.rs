@@ -13,11 +13,15 @@ use brinell_report::{CustomerReport, GENERATOR, Heading, Judged, JudgedOf, NotJu
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+fn ends_in(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
 impl AnalyzeArgs {
     /// The file of `-o`, where it is one and no folder.
     fn html(&self) -> Option<&Path> {
         let path = self.output.as_deref()?;
-        let is_html = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("html")) && !path.is_dir();
+        let is_html = ends_in(path, "html") && !path.is_dir();
         is_html.then_some(path)
     }
 
@@ -41,8 +45,7 @@ impl AnalyzeArgs {
         let usage = |words: String| Err(Failure::Usage(words));
         let of = &self.customer;
         let [html, pdf] = self.reports();
-        let is_pdf = |path: &&Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("pdf"));
-        if let Some(path) = self.folder().filter(is_pdf) {
+        if let Some(path) = self.folder().filter(|path| ends_in(path, "pdf")) {
             return usage(format!(
                 "-o {0}: expected a folder, or REPORT.html; a PDF is given by --pdf {0}",
                 path.display()
@@ -65,7 +68,7 @@ impl AnalyzeArgs {
                 None => Ok(()),
             };
         }
-        if let Some(path) = pdf.filter(|path| path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("pdf"))) {
+        if let Some(path) = pdf.filter(|path| !ends_in(path, "pdf")) {
             return usage(format!("--pdf {}: expected a name that ends in .pdf", path.display()));
         }
         if let Some(path) = pdf.filter(|path| self.folder().is_some_and(|folder| path.starts_with(folder))) {

@@ -98,11 +98,7 @@ impl Campaign {
         let folder = plan.path.parent().unwrap_or(Path::new(""));
         let base = Document::open(&folder.join(&read.base)).map_err(|error| match error {
             // The file is the plan's to name.
-            DatasetError::Read { path, error } => plan.problem_of(
-                "base",
-                &read.base,
-                &format!("cannot read {}: {}", path.display(), brinell_io::why_unread(&error)),
-            ),
+            error @ DatasetError::Read { .. } => plan.problem_of("base", &read.base, &error.to_string()),
             other => other,
         })?;
         let draws = Draws::new(read).map_err(|problems| {

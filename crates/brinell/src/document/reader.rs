@@ -12,7 +12,7 @@ use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
-use super::spec::{Spec, unit_of_key, without_unit};
+use super::spec::{Spec, key_meant, unit_of_key};
 use super::value_type::Misfit;
 use super::walk::Fallback;
 use crate::bearing::catalogue;
@@ -323,11 +323,6 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
         let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
         homes.join(" or ")
     };
-    // Its unit is missing too.
-    let bare = || {
-        let means = |known: &&&str| did_you_mean(name, without_unit(known).into_iter()).is_some();
-        frame.named.iter().find(means).copied()
-    };
     let boundary = boundary_dimension(name).filter(|_| frame.path == "bearing");
     let hint = if let Some((raceway, what)) = boundary {
         format!("; a bearing's {what} is not asked for: elements run on the raceway, `{raceway}`")
@@ -335,7 +330,7 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
         format!("; it belongs in {}", elsewhere(name))
     } else if let Some(why) = left_out(name) {
         format!("; {why}")
-    } else if let Some(known) = did_you_mean(name, frame.named.iter().copied()).or_else(bare) {
+    } else if let Some(known) = key_meant(name, &frame.named) {
         format!("; did you mean `{known}`?")
     } else if let Some(known) = did_you_mean(name, vocabulary.iter().map(|(_, k)| k.as_str())) {
         format!("; did you mean `{known}` in {}?", elsewhere(known))

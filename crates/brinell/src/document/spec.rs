@@ -1,5 +1,6 @@
 //! What a key is called, means and may hold.
 
+use crate::did_you_mean::did_you_mean;
 use crate::signal::rounded;
 use std::fmt;
 
@@ -154,15 +155,24 @@ const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
 
 /// The unit that a key's path carries in its name, an element of a list having its list's; empty where there is none.
 pub fn unit_of_key(path: &str) -> &'static str {
-    let named = |part: &&str| !part.bytes().all(|b| b.is_ascii_digit());
-    path.rsplit('.').find(named).map_or("", unit_of)
+    path.rsplit('.').find(|part| is_name(part)).map_or("", unit_of)
+}
+
+/// Whether a part of a path is a name, and not a place in a list.
+fn is_name(part: &str) -> bool {
+    !part.bytes().all(|b| b.is_ascii_digit())
+}
+
+/// The key that a misspelt one is near, also where it lacks its unit.
+pub(super) fn key_meant<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let bare = |known: &&&str| did_you_mean(name, without_unit(known).into_iter()).is_some();
+    did_you_mean(name, known.iter().copied()).or_else(|| known.iter().find(bare).copied())
 }
 
 /// What a key's path is of, in words, without tables and unit: "length" of `defects.0.shape.rectangle.length_mm`, "load.1" of `operation.load_n.1`.
 pub fn quantity_of_key(path: &str) -> String {
-    let named = |part: &str| !part.bytes().all(|b| b.is_ascii_digit());
     let parts: Vec<&str> = path.split('.').collect();
-    let at = parts.iter().rposition(|part| named(part)).unwrap_or(0);
+    let at = parts.iter().rposition(|part| is_name(part)).unwrap_or(0);
     let name = without_unit(parts[at]).unwrap_or(parts[at]).replace('_', " ");
     [&[name.as_str()], &parts[at + 1..]].concat().join(".")
 }

@@ -189,7 +189,7 @@ impl Lanes for Avx512 {
     }
 }
 
-/// Four numbers in one register of AVX2.
+/// What lanes of four numbers in one register of AVX2 have in common: all but how a product meets a sum.
 macro_rules! four {
     ($type:ident, $pair:ident; times_plus $times_plus:ident minus_times $minus_times:ident) => {
         operators! {

@@ -185,33 +185,33 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
         );
     }
     let recorded = analysis.has_record_of_speed();
-    if let Some((name, which)) = elsewhere.every {
-        return format!(
-            "Cannot tell: the lines of {name} are one in {which} of a comb at {:.2} Hz, {order:.3} times the shaft's speed, and this bearing has no frequency there. \
-             {} The frequencies of the machine's other bearings and gears would tell{}.",
-            elsewhere.frequency,
-            if recorded {
-                "Is it this bearing, and the recorded speed its shaft's?"
-            } else {
-                "Are speed and bearing right?"
-            },
-            if recorded { "" } else { ", and a record of the speed" },
-        );
-    }
-    let (near, doubt) = match (lines_agree(analysis), recorded) {
-        (true, _) => {
-            (nearest_frequency(elsewhere, false), "Is it this bearing? The shaft's own lines agree with the speed.")
-        }
-        (_, true) => (nearest_frequency(elsewhere, true), "Is it this bearing, and the recorded speed its shaft's?"),
-        _ => (speeds_if_its(analysis, elsewhere), "Is one of these the speed, and is it this bearing?"),
+    let of_record = "Is it this bearing, and the recorded speed its shaft's?";
+    let (at, hz) = (format!("{order:.3} times the shaft's speed"), elsewhere.frequency);
+    let deepest = |near: String| {
+        let depth = 100.0 * elsewhere.modulation;
+        format!(
+            "the deepest comb of lines lies at {hz:.2} Hz, {at}, modulating by {depth:.0} %, and this bearing has no frequency there.{near}"
+        )
     };
-    format!(
-        "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {order:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{near} {doubt} \
-         The frequencies of the machine's other bearings and gears would tell{}.",
-        elsewhere.frequency,
-        100.0 * elsewhere.modulation,
-        if recorded { "" } else { ", and a record of the speed" },
-    )
+    let (comb, doubt) = match elsewhere.every {
+        Some((name, which)) => (
+            format!(
+                "the lines of {name} are one in {which} of a comb at {hz:.2} Hz, {at}, and this bearing has no frequency there."
+            ),
+            if recorded { of_record } else { "Are speed and bearing right?" },
+        ),
+        None if lines_agree(analysis) => (
+            deepest(nearest_frequency(elsewhere, false)),
+            "Is it this bearing? The shaft's own lines agree with the speed.",
+        ),
+        None if recorded => (deepest(nearest_frequency(elsewhere, true)), of_record),
+        None => (
+            deepest(format!(" {}", speeds_if_its(analysis, elsewhere))),
+            "Is one of these the speed, and is it this bearing?",
+        ),
+    };
+    let record = if recorded { "" } else { ", and a record of the speed" };
+    format!("Cannot tell: {comb} {doubt} The frequencies of the machine's other bearings and gears would tell{record}.")
 }
 
 /// How far off the frequency of the bearing is that lies nearest, and at which speed it would be there where that is open.
@@ -238,7 +238,7 @@ impl Analysis {
         if self.has_record_of_speed() || lines_agree(self) {
             return None;
         }
-        Some(speeds_if_its(self, elsewhere).trim().to_owned())
+        Some(speeds_if_its(self, elsewhere))
     }
 }
 
@@ -248,7 +248,7 @@ fn speeds_if_its(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
         let slip = elsewhere.nearest.filter(|n| n.component == component).map_or(String::new(), slipping);
         format!("{name} at {:.0} r/min{slip}", 60.0 * elsewhere.frequency / order)
     });
-    format!(" It would be {}.", speeds.collect::<Vec<_>>().join(", "))
+    format!("It would be {}.", speeds.collect::<Vec<_>>().join(", "))
 }
 
 /// The slip of the cage that would do the same as another speed.

@@ -2,9 +2,8 @@
 
 use super::super::problem::Problem;
 use super::super::source::{Entry, Node, Table, Value};
-use super::super::spec::without_unit;
+use super::super::spec::key_meant;
 use crate::bearing::catalogue;
-use crate::did_you_mean::did_you_mean;
 use crate::scenario::{Choice, Element, LoadOn, ModelKind, Start};
 
 /// Sections that a bearing of a machine has within its table.
@@ -18,24 +17,6 @@ pub(in super::super) const OF_THE_SHAFT: [&str; 3] = ["load_n", "load_on", "load
 /// Keys of where a bearing is.
 pub(super) const OF_A_SEAT: [&str; 6] =
     ["at_mm", "housing", "offset_um", "misalignment_mrad", "fit_stiffness_n_per_m", "fit_damping_ns_per_m"];
-/// A key that a bearing's table should not have: what it may have in a machine beside the keys of a bearing.
-pub(super) fn with_keys_of_a_seat(problem: &mut Problem) {
-    let name = problem.key.strip_prefix("bearing.").filter(|name| !name.contains('.'));
-    let (Some(name), "unknown key") = (name, &*problem.message) else { return };
-    let bare = |known: &&str| did_you_mean(name, without_unit(known).into_iter()).is_some();
-    let meant = did_you_mean(name, OF_A_SEAT.into_iter()).or_else(|| OF_A_SEAT.into_iter().find(bare));
-    match meant {
-        Some(known) => {
-            problem.message = format!("unknown key; did you mean `{known}`?");
-            problem.allowed = None;
-        }
-        None => {
-            let keys = [&OF_A_SEAT[..], &OF_A_BEARING].concat().join(", ");
-            problem.allowed = problem.allowed.take().map(|of_a_bearing| format!("{keys}, {of_a_bearing}"));
-        }
-    }
-}
-
 /// What a machine records where it does not say.
 const RECORD: [&str; 4] = ["bearing*.outer_*", "bearing*.cage*", "shaft.*", "housing*"];
 
@@ -69,6 +50,22 @@ fn give(root: &mut Table, section: &str, name: &str, value: Value) {
     let entry = root.entry(section.into()).or_insert_with(|| unplaced(Node::table(Table::new())));
     if let Value::Table(table) = &mut entry.node.value {
         table.entry(name.into()).or_insert_with(|| unplaced(Node::unplaced(value)));
+    }
+}
+
+/// A key that a bearing's table should not have: what it may have in a machine beside the keys of a bearing.
+pub(super) fn with_keys_of_a_seat(problem: &mut Problem) {
+    let name = problem.key.strip_prefix("bearing.").filter(|name| !name.contains('.'));
+    let (Some(name), "unknown key") = (name, &*problem.message) else { return };
+    match key_meant(name, &OF_A_SEAT) {
+        Some(known) => {
+            problem.message = format!("unknown key; did you mean `{known}`?");
+            problem.allowed = None;
+        }
+        None => {
+            let keys = [&OF_A_SEAT[..], &OF_A_BEARING].concat().join(", ");
+            problem.allowed = problem.allowed.take().map(|of_a_bearing| format!("{keys}, {of_a_bearing}"));
+        }
     }
 }
 

@@ -87,7 +87,7 @@ pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64
 
 #[cfg(test)]
 mod tests {
-    /// What a machine without AVX2 prints, one with it prints: the book's numbers and pictures hang on it.
+    /// The equations on AVX2's registers are those on the portable lanes, to the bit.
     #[test]
     #[cfg(target_arch = "x86_64")]
     fn prop_the_portable_kernel_has_the_same_bits_with_avx2() {
