@@ -81,6 +81,11 @@ fn regress_what_is_no_scenario_is_refused() {
     brinell_reading(here, &["check", "-"], b"name = \n[bearing")
         .exits(2)
         .complains(&["line 1: not valid TOML", "line 2: not valid TOML"]);
+    // One bracket that was forgotten is one error, at its place, and not one a line behind it.
+    let open = SHORT.replace("[300.0, 0.0]", "[300.0, 0.0");
+    let call = brinell_reading(here, &["check", "-"], open.as_bytes()).exits(2);
+    assert_eq!(call.err.matches("error").count(), 1, "{}", call.err);
+    call.complains(&["line 8: not valid TOML: this `[` is not closed before line 1", "its `]` is missing"]);
     brinell_reading(here, &["check", "-"], b"")
         .exits(2)
         .complains(&["operation.speed_rpm: missing", "operation.load_n: missing"]);

@@ -133,9 +133,13 @@ pub(crate) fn none(page: &mut String, words: &str) {
 
 /// A unit with raised exponents.
 pub(crate) fn unit_html(unit: &str) -> String {
-    // Keys and files write u for µ.
-    let micro = unit.strip_prefix('u').filter(|rest| matches!(*rest, "m" | "J"));
-    runs(&micro.map_or_else(|| unit.to_owned(), |rest| format!("µ{rest}")))
+    // Keys and files write u for µ, and deg for °.
+    let written = match (unit, unit.strip_prefix('u')) {
+        ("deg", _) => "°".to_owned(),
+        (_, Some(rest @ ("m" | "J" | "s"))) => format!("µ{rest}"),
+        _ => unit.to_owned(),
+    };
+    runs(&written)
         .iter()
         .map(|run| {
             let text = escape(&run.text);

@@ -4,6 +4,7 @@ use super::level::{Level, Point, levels};
 use super::limit::{Limit, NoReach, Side};
 use super::when::Times;
 use crate::problem::Problem;
+use brinell::signal::estimate::NORMAL;
 use brinell::signal::parallel;
 use brinell::signal::trend::{Change, Course, FEWEST, Kind, Outcome, changes};
 use serde_json::Value;
@@ -12,8 +13,6 @@ use serde_json::Value;
 pub const ALPHA: f64 = 0.05;
 /// Speeds that differ by more are not compared: levels depend on speed.
 const SPEEDS: f64 = 0.05;
-/// Half width of a 95 % interval in standard uncertainties.
-const HALF: f64 = 1.96;
 
 /// A record of the trend.
 #[derive(Debug, Clone, PartialEq)]
@@ -160,7 +159,7 @@ fn followed(level: Level, times: &Times, records: &[Record], alpha: f64, limits:
             continue;
         };
         let scale = |v: f64| if level.by_factors { v.ln() } else { v };
-        let half = point.interval.map(|(low, high)| 0.5 * (scale(high) - scale(low)) / HALF);
+        let half = point.interval.map(|(low, high)| 0.5 * (scale(high) - scale(low)) / NORMAL);
         course.t.push(*at);
         course.y.push(scale(point.value));
         course.s.push(half.filter(|s| s.is_finite()).unwrap_or(0.0));

@@ -229,7 +229,16 @@ fn markers(a: &Analysis) -> Vec<Marker> {
         present: true,
         sidebands: Vec::new(),
     });
-    a.families.iter().map(marker).chain(elsewhere).collect()
+    let shaft = Marker {
+        label: "shaft".into(),
+        meaning: "turns of the shaft".into(),
+        frequency_hz: a.shaft,
+        pure_rolling_hz: None,
+        harmonics: HARMONICS,
+        present: false,
+        sidebands: Vec::new(),
+    };
+    a.families.iter().map(marker).chain([shaft]).chain(elsewhere).collect()
 }
 
 fn families(a: &Analysis) -> Table {

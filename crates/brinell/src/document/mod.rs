@@ -40,6 +40,7 @@ mod speed_value;
 mod table_value;
 mod toml_text;
 mod tree;
+mod unclosed;
 mod value_type;
 mod walk;
 mod waviness_value;

@@ -7,8 +7,9 @@ use serde_json::Value as Json;
 use toml::de::{DeTable, DeValue};
 
 use super::problem::{Place, Problem, Severity, cut};
-use super::problems::Problems;
+use super::problems::{MOST_OF_A_KIND, Problems};
 use super::toml_text::{float, key_text, quote};
+use super::unclosed::bracket_before;
 
 /// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper
 /// would end on the stack.
@@ -228,7 +229,7 @@ pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Pr
             };
             errors.sort_by_key(|error| error.span().map_or(0, |span| span.start));
             let mut before = None;
-            for error in errors {
+            for (k, error) in errors.iter().enumerate() {
                 // A broken line often breaks in several ways: the first says enough.
                 let start = error.span().map(|span| span.start.min(text.len()));
                 let same_line = match (before, start) {
@@ -236,6 +237,13 @@ pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Pr
                     _ => false,
                 };
                 before = start;
+                // All that follow are of the one bracket.
+                if let (0..MOST_OF_A_KIND, Some(start)) = (k, start)
+                    && let Some(at) = bracket_before(text, start)
+                {
+                    problems.add(not_closed(text, at, start), Some(at..at + 1));
+                    break;
+                }
                 if !same_line {
                     problems.add_of(Severity::Error, "not valid TOML", || {
                         let message = format!("not valid TOML: {}", error.message());
@@ -254,6 +262,16 @@ pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Pr
         Value::Table(table) if problems.is_empty() => Ok(table),
         _ => Err(problems.finish()),
     }
+}
+
+/// That the bracket at `at` is not closed before the line at `next`.
+fn not_closed(text: &str, at: usize, next: usize) -> Problem {
+    let (open, close) = if text[at..].starts_with('{') { ('{', '}') } else { ('[', ']') };
+    let line = text[..next].bytes().filter(|&byte| byte == b'\n').count() + 1;
+    Problem::error(
+        "",
+        format!("not valid TOML: this `{open}` is not closed before line {line}; its `{close}` is missing"),
+    )
 }
 
 /// Refuses a text with too many values, by what is between them, before anything is made of it.

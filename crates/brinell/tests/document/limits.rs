@@ -118,9 +118,13 @@ fn regress_an_outline_that_crosses_everywhere_is_refused() {
 fn lit_no_bearing_turns_beyond_its_speed_factor() {
     // The pitch diameter of the bare bearing is 49 mm.
     let most = (1e7_f64 / 49.0).floor();
-    for speed in [most, -most] {
-        with(BARE, &[("operation.speed_rpm", &speed.to_string())])
+    let warned = |speed: f64| {
+        let loaded = with(BARE, &[("operation.speed_rpm", &speed.to_string())])
             .unwrap_or_else(|problems| panic!("{}", report(&problems)));
+        loaded.warnings.iter().any(|w| w.message.contains("tested up to 3e6"))
+    };
+    for (speed, beyond_tests) in [(most, true), (-most, true), (61_225.0, true), (61_224.0, false)] {
+        assert_eq!(warned(speed), beyond_tests, "{speed}");
     }
     for (speed, at) in [
         ("204082.0", ""),

@@ -20,6 +20,8 @@ const MANY_SAMPLES: f64 = 1e8;
 /// engine bearings at 3 x 10^6 DN, Journal of Lubrication Technology 98, 1976, 580-585); this leaves three times as
 /// much.
 const MOST_SPEED_FACTOR: f64 = 1e7;
+/// That of the tests.
+const TESTED_SPEED_FACTOR: f64 = 3e6;
 
 /// Multiple of the static load rating that no bearing carries. The rating represents 4 GPa at the heaviest roller (ISO
 /// 76), and a line contact's pressure grows with the square root of the load, so this is 12.6 GPa, and 9.9 GPa on
@@ -69,31 +71,32 @@ impl Checker<'_> {
         }
     }
 
-    /// A speed that no bearing of this size withstands; its run would take steps of 1e-11 s.
+    /// A speed that no bearing of this size withstands, whose run would take steps of 1e-11 s, or that none was shown to.
     pub(super) fn speed_factor(&mut self) {
         let pitch = self.s.bearing.pitch_diameter_mm;
         let (speed, place) = match &self.s.operation.speed_rpm {
             Speed::Constant(speed) => (*speed, String::new()),
-            Speed::Profile(points) => {
-                let beyond = |p: &&[f64; 2]| p[1].abs() * pitch > MOST_SPEED_FACTOR;
-                match points.iter().find(beyond) {
-                    Some([t, speed]) => (*speed, format!(" at t = {} s", short(*t))),
-                    None => return,
-                }
-            }
+            Speed::Profile(points) => match points.iter().max_by(|a, b| a[1].abs().total_cmp(&b[1].abs())) {
+                Some([t, speed]) => (*speed, format!(" at t = {} s", short(*t))),
+                None => return,
+            },
         };
-        if speed.abs() * pitch > MOST_SPEED_FACTOR {
-            self.error(
-                SPEED,
-                format!(
-                    "{} r/min{place} on a pitch diameter of {} mm is a speed factor of {} mm r/min; no bearing allows more than {MOST_SPEED_FACTOR:e}",
-                    short(speed),
-                    short(pitch),
-                    short(speed.abs() * pitch)
-                ),
-                format!("-{0} to {0}", short((MOST_SPEED_FACTOR / pitch).floor())),
-                &["bearing.pitch_diameter_mm"],
-            );
+        let factor = speed.abs() * pitch;
+        let message = format!(
+            "{} r/min{place} on a pitch diameter of {} mm is a speed factor of {} mm r/min",
+            short(speed),
+            short(pitch),
+            short(factor)
+        );
+        let also = &["bearing.pitch_diameter_mm"];
+        let within = |most: f64| format!("-{0} to {0}", short((most / pitch).floor()));
+        if factor > MOST_SPEED_FACTOR {
+            let message = format!("{message}; no bearing allows more than {MOST_SPEED_FACTOR:e}");
+            self.error(SPEED, message, within(MOST_SPEED_FACTOR), also);
+        } else if factor > TESTED_SPEED_FACTOR {
+            let message =
+                format!("{message}; main-shaft bearings of jet engines were tested up to {TESTED_SPEED_FACTOR:e}");
+            self.warn(SPEED, message, within(TESTED_SPEED_FACTOR), also);
         }
     }
 
