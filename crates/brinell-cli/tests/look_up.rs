@@ -73,7 +73,7 @@ fn regress_frequencies_of_a_scenario_use_its_speed() {
 
 #[test]
 fn regress_frequencies_tell_that_a_maker_in_front_chooses_nothing() {
-    let words = "number or size of its 11 elements a row is estimated";
+    let words = "their number or size is estimated";
     let another = "those of NACHI give 10 of 16.669 mm";
     call(&["frequencies", "NACHI 6213"]).exits(0).says(&[words, another, "may differ between makers"]);
     let json = parsed(&call(&["frequencies", "NACHI 6213", "--json"]).exits(0).out);

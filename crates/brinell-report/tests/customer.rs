@@ -257,7 +257,7 @@ fn prop_each_verdict_and_zone_has_its_severity_and_its_steps() {
     assert!(open.contains("Cannot tell") && open.contains("Settle what is open"), "{open}");
     assert!(!open.contains("Order the bearing"));
     let none = of(Verdict::NothingFound, "", Some(Zone::D));
-    assert!(none.contains("no proof of a sound bearing") && none.contains("Look for the cause"), "{none}");
+    assert!(none.contains("no proof of a healthy bearing") && none.contains("Look for the cause"), "{none}");
     assert!(!none.contains("Go on with the usual interval"));
 }
 

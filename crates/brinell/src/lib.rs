@@ -154,6 +154,7 @@ pub mod bearing;
 #[doc(hidden)]
 pub mod cage;
 pub mod channel;
+pub mod cite;
 #[doc(hidden)]
 pub mod coefficients;
 pub mod contact;

@@ -28,7 +28,7 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
     if let Some(folder) = named.iter().find_map(|path| data_set_of(path)) {
         return Err(Failure::Usage(format!(
             "{0} is a data set, not a file of signals: the signals of its runs are lists, a row a run, in runs/part-*.parquet, which `brinell analyze` does not read; \
-             `brinell dataset sheet {0}` shows some of them; for one run, save its cell of the column `scenario` as RUN.toml, then `brinell run RUN.toml -o FOLDER` and \
+             `brinell dataset sheet {0}` shows some of them; for run 7, `brinell dataset scenario {0} 7 > run7.toml`, then `brinell run run7.toml -o FOLDER` and \
              `brinell analyze FOLDER`",
             one_line(&folder.display().to_string())
         )));

@@ -1,7 +1,7 @@
 //! A trend on the terminal and on its page.
 
 use crate::say::{say, short};
-use brinell_measured::{Followed, Trend};
+use brinell_measured::{Followed, Level, Trend};
 use brinell_report::{Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Piece, Table, Tone};
 
 /// The table of levels in the folder of results.
@@ -22,22 +22,22 @@ fn lead(trend: &Trend) -> String {
     )
 }
 
-/// First and last value, and what is said: of each level.
-fn rows(trend: &Trend) -> impl Iterator<Item = [String; 4]> {
-    trend.levels.iter().map(|of| {
+/// Name, first and last value, and what is said: of each level.
+fn rows(trend: &Trend, name: impl Fn(&Level) -> String) -> impl Iterator<Item = [String; 4]> {
+    trend.levels.iter().map(move |of| {
         let compared = of.level.points.iter().zip(&trend.records).filter(|(_, record)| record.apart.is_none());
         let mut points = compared.filter_map(|(point, _)| point.as_ref());
         let value = |v: f64| [short(v, 3), of.level.unit.clone()].join(" ").trim_end().to_owned();
         let first = points.next().map_or("-".into(), |p| value(p.value));
         let last = points.next_back().map_or("-".into(), |p| value(p.value));
-        [of.level.called(), first, last, trend.words(of)]
+        [name(&of.level), first, last, trend.words(of)]
     })
 }
 
 /// On the terminal, under the table of records.
 pub(super) fn tell(trend: &Trend) {
-    say!("\n{}.", lead(trend));
-    let rows: Vec<[String; 4]> = rows(trend).collect();
+    say!("\n{}\n{}.", trend.summary(), lead(trend));
+    let rows: Vec<[String; 4]> = rows(trend, Level::called).collect();
     let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0).max(5);
     let widths = [width(0), width(1), width(2)];
     let [a, b, c] = widths;
@@ -58,7 +58,9 @@ const MARKS: &str = "Bars: 95 % intervals; rings: values without one; crosses on
 pub(super) fn chapters(trend: &Trend) -> Vec<Chapter> {
     let limits: Vec<String> = trend.levels.iter().map(|of| trend.limit_words(of).join("; ")).collect();
     let columns = if limits.iter().all(String::is_empty) { 4 } else { 5 };
-    let changes = rows(trend).zip(limits).map(|(row, limits)| row.into_iter().chain([limits]).take(columns).collect());
+    let name = |level: &Level| format!("{} ({})", level.label, level.name);
+    let changes =
+        rows(trend, name).zip(limits).map(|(row, limits)| row.into_iter().chain([limits]).take(columns).collect());
     let note = lead(trend)
         + ". When a limit is reached is an extrapolation, which holds if growth goes on as it is: no forecast of life.";
     let headings = ["Level", "#First", "#Last", "Trend", "Limits"];

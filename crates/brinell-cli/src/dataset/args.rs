@@ -91,6 +91,16 @@ pub(crate) enum DatasetCommand {
     /// Draw a contact sheet, sheet.html in the folder: of a few runs of each class the labels, the waveform and the
     /// envelope spectrum
     Sheet(SheetArgs),
+    /// Print the scenario of one run, as TOML: brinell run simulates it again
+    Scenario(ScenarioArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ScenarioArgs {
+    /// The data set's folder
+    pub(crate) folder: PathBuf,
+    /// The run's number in the column run
+    pub(crate) run: u64,
 }
 
 #[derive(Debug, Args)]

@@ -9,12 +9,12 @@ use crate::failure::{ExitCode, Failure};
 use crate::files::safe_name;
 use crate::inputs::Inputs;
 use crate::results::Resumed;
-use crate::say::{self, complain, plural, say};
+use crate::say::{self, complain, document, plural, say};
 use crate::stop::stop_flag;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
 use brinell::signal::objects;
-use brinell_study::dataset::{Campaign, DatasetError, Merged, ShardSummary, merge, run, verify};
+use brinell_study::dataset::{Campaign, DatasetError, Merged, ShardSummary, merge, run, scenario_of, verify};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -39,6 +39,10 @@ pub(crate) fn dataset(args: &DatasetArgs) -> Result<ExitCode, Failure> {
         (Some(DatasetCommand::Merge(args)), _) => join(args),
         (Some(DatasetCommand::Verify(args)), _) => check(args),
         (Some(DatasetCommand::Sheet(args)), _) => sheet::draw(args),
+        (Some(DatasetCommand::Scenario(args)), _) => {
+            document(scenario_of(&args.folder, args.run)?.trim_end());
+            Ok(ExitCode::SUCCESS)
+        }
         (None, Some(plan)) => make(args, plan),
         (None, None) => Err(Failure::Usage("give a plan, for instance `brinell dataset plan.toml`".into())),
     }

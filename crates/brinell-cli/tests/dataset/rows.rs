@@ -28,7 +28,11 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     }
     // The row's own scenario, run by itself, gives the same signal.
     let row = &all[3];
-    fs::write(folder.path().join("again.toml"), text(row, "scenario").unwrap()).unwrap();
+    let printed = brinell(folder.path(), &["dataset", "scenario", "out", "3"]).exits(0).keeps_quiet().out;
+    assert_eq!(printed.trim_end(), text(row, "scenario").unwrap().trim_end());
+    let none = brinell(folder.path(), &["dataset", "scenario", "out", "7"]).exits(2);
+    none.complains(&["out: no run 7; it has 7 runs, numbered from 0"]);
+    fs::write(folder.path().join("again.toml"), printed).unwrap();
     brinell(folder.path(), &["run", "again.toml", "-o", "again", "--no-report", "-q"]).exits(0);
     let mut again = brinell_io::open(folder.path().join("again/signals.parquet")).unwrap();
     let whole = again.read("sensor_ax").unwrap();

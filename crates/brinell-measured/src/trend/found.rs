@@ -193,6 +193,15 @@ impl Followed {
         if self.level.by_factors { y.exp() } else { y }
     }
 
+    /// The last value over the first, of a level that grows by factors, where the 95 % interval of their difference leaves out
+    /// none.
+    pub fn last_over_first(&self) -> Option<f64> {
+        let course = &self.course;
+        let (&[first, .., last], &[a, .., b]) = (&course.y[..], &course.s[..]) else { return None };
+        let known = self.level.by_factors && a > 0.0 && b > 0.0;
+        (known && (last - first).abs() > NORMAL * a.hypot(b)).then(|| (last - first).exp())
+    }
+
     /// Doubling time of growth by factors with its interval, in the unit of time; negative where it halves.
     pub fn doubling(&self, change: &Change) -> Option<Point> {
         let grows = self.level.by_factors && change.kind == Kind::Growth;

@@ -19,14 +19,52 @@ impl Trend {
             return format!("changed (p = {}), not clear whether in level or in scatter", short(outcome.p, 2));
         }
         if outcome.changes.is_empty() {
-            return format!(
-                "no change found (p = {}, {} or less is needed)",
-                short(outcome.p, 2),
-                short(self.alpha, 2)
-            );
+            let p = format!("p = {}, {} or less is needed", short(outcome.p, 2), short(self.alpha, 2));
+            return match of.last_over_first() {
+                Some(ratio) => format!(
+                    "{} times the first, not shown to be more than scatter among {} records ({p})",
+                    short(ratio, 2),
+                    of.course.t.len()
+                ),
+                None => format!("no change found ({p})"),
+            };
         }
         let all: Vec<String> = outcome.changes.iter().map(|change| self.change(of, change)).collect();
         all.join("; ")
+    }
+
+    /// The trend in a few sentences: which parts were called damaged, in how many records and from when, and which levels
+    /// changed.
+    pub fn summary(&self) -> String {
+        let judged = self.records.iter().filter(|record| !matches!(&*record.says, "no_result" | "too_short")).count();
+        let mut parts: Vec<(&str, usize, usize)> = Vec::new();
+        for (k, record) in self.records.iter().enumerate() {
+            for part in &record.damage {
+                match parts.iter_mut().find(|(name, ..)| name == part) {
+                    Some((_, count, _)) => *count += 1,
+                    None => parts.push((part, 1, k)),
+                }
+            }
+        }
+        let called = |(part, count, first): &(&str, usize, usize)| {
+            let at = self.times.text(self.times.at[*first]);
+            format!("Damage of the {} is called in {count} of {judged} records, first at {at}.", part.replace('_', " "))
+        };
+        let mut sentences: Vec<String> = parts.iter().map(called).collect();
+        if parts.is_empty() {
+            sentences.push(format!("Damage is called in none of {judged} records."));
+        }
+        let changes = |of: &&Followed| of.outcome.as_ref().is_some_and(|outcome| !outcome.changes.is_empty());
+        let tested = self.levels.iter().any(|of| of.outcome.is_some());
+        let changed: Vec<String> = (self.levels.iter().filter(|of| of.level.by_factors).filter(changes))
+            .map(|of| format!("{}: {}.", of.level.label, self.words(of)))
+            .collect();
+        match (changed.is_empty(), tested) {
+            (false, _) => sentences.extend(changed),
+            (true, true) => sentences.push("No level of the signal is shown to change.".into()),
+            (true, false) => {}
+        }
+        sentences.join(" ")
     }
 
     /// A change in words: when, and how much.

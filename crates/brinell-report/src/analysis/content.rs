@@ -247,7 +247,7 @@ fn families(a: &Analysis) -> Table {
         COLUMNS,
         a.rows().into_iter().map(Vec::from),
         format!(
-            "Each within {} % of pure rolling, in the envelope spectra of {} bands averaged over their noise floors; a harmonic is present from 3 dB on; one that a line of shaft or mains hides is not counted. \
+            "Each within {} % of pure rolling (those of rolling element and cage no more than 1 % above, as they slip and do not run ahead), in the envelope spectra of {} bands averaged over their noise floors; a harmonic is present from 3 dB on; one that a line of shaft or mains hides is not counted. \
              Modulation: depth to which lines and sidebands modulate the envelope, over all bands.",
             100.0 * a.options.tolerance,
             a.bands,

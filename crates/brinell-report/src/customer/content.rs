@@ -5,7 +5,7 @@ use super::{CustomerReport, Heading, Judged, NotJudged, Whole};
 use crate::analysis::{AnalysisReport, Findings, scaled, with_interval};
 use crate::number::{raised, short};
 use crate::tables::Table;
-use brinell::analysis::{Analysis, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
+use brinell::analysis::{Analysis, Component, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
 use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator};
 
@@ -41,7 +41,7 @@ impl Judged {
         let mut severity = Vec::new();
         severity.extend(lead.map(|family| {
             format!(
-                "Bearing: the impacts modulate the envelope by {:.0} %. On sound machines the program was checked on it is 20 % at most, with damage mostly 25 % and more. It tells how clear the damage is, not how large.",
+                "Bearing: the impacts modulate the envelope by {:.0} %. On healthy machines the program was checked on it is 20 % at most, with damage mostly 25 % and more. It tells how clear the damage is, not how large.",
                 100.0 * family.modulation
             )
         }));
@@ -49,7 +49,7 @@ impl Judged {
         let told = format!("{}; {}", of.speed, a.shaft_words());
         // Expected frequencies stand beside, and are of the speed that was found.
         let speed = match (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 {
-            true => format!("{}; used: {:.1} r/min, of its own lines", of.speed, 60.0 * a.shaft),
+            true => format!("{}; used: {:.1} r/min, from the shaft's lines in the record", of.speed, 60.0 * a.shaft),
             false => of.speed,
         };
         let record =
@@ -82,7 +82,11 @@ impl Judged {
             speed,
             verdict: a.conclusion(),
             clarity: lead.map_or("", |family| a.clarity(family)),
-            parts: a.causes().map(|family| family.component).collect(),
+            // Lines at FTF are those of one element or of the cage.
+            parts: a
+                .causes()
+                .map(|family| if family.name == "FTF" { Component::Cage } else { family.component })
+                .collect(),
             score: a.causes().map(|family| family.score).max_by(f64::total_cmp),
             reason: reason(a),
             whole: whole(of.findings.levels),
@@ -122,7 +126,7 @@ fn reason(a: &Analysis) -> String {
     }
     let with = |finding| a.families.iter().find(|family| family.finding == finding);
     match a.conclusion() {
-        Verdict::NothingFound => "At none of the rates at which damage of this bearing strikes does the vibration show more than that of sound machines.".into(),
+        Verdict::NothingFound => "At none of the rates at which damage of this bearing strikes does the vibration show more than that of healthy machines.".into(),
         _ if a.at_given.is_some() => "At the speed given a part would be damaged, but the record's own lines tell another speed. Which is right?".into(),
         _ if with(Finding::Grown).is_some() => "Impacts at a rate of this bearing have grown since the healthy record, and do not yet reach what damage shows.".into(),
         _ if a.elsewhere.is_some() => {
@@ -222,7 +226,7 @@ fn levels(of: &Findings) -> Table {
 
 fn method(a: &Analysis) -> String {
     format!(
-        "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling; lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of sound machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
+        "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling; lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of healthy machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
         a.bands,
         (1e4 * a.options.tolerance).round() / 1e2
     )
@@ -287,7 +291,6 @@ fn all(signals: &[Judged], without: &[NotJudged]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use brinell::analysis::Component;
 
     #[test]
     fn prop_every_part_has_its_rate() {

@@ -217,7 +217,7 @@ fn caption(lead: &Judged) -> &'static str {
             "How often the machine rings, from the envelope of the vibration. Dashed: the rate of the strongest regular impacts and its multiples, which is none of this bearing's."
         }
         (false, _) => {
-            "How often the machine rings, from the envelope of the vibration. Marks above: where damage of each part would have its peaks."
+            "How often the machine rings, from the envelope of the vibration. Marks above: where damage of each part would have its peaks. High peaks without a mark are the shaft's or the mains', or come from elsewhere."
         }
     }
 }

@@ -52,3 +52,12 @@ pub(super) fn times(parts: &Parts) -> Option<(String, String)> {
     let words = format!("{} times the healthy {what}’s", short(ratio.value, 2));
     Some((words, interval))
 }
+
+/// Why that is more than a machine shows.
+pub(super) fn smooth(parts: &Parts) -> &'static str {
+    let b = &parts.loaded.scenario.bearing;
+    match b.waviness.is_none() && b.element_waviness.is_none() {
+        true => " (without roughness, so more than a machine shows)",
+        false => "",
+    }
+}

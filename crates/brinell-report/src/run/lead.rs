@@ -18,7 +18,8 @@ pub(super) fn lead(parts: &Parts, damage: &[Damage], spread: &[Level]) -> String
             let [low, high] = level.band.map(|x| short(x, 2));
             format!(" ({low} to {high} by what is assumed)")
         });
-        let times = healthy::times(parts).map_or(String::new(), |(words, _)| format!(", {words}"));
+        let times =
+            healthy::times(parts).map_or(String::new(), |(words, _)| format!(", {words}{}", healthy::smooth(parts)));
         said.push(format!("{} m/s² RMS{band}{times}", short(rms.value, 3)));
     }
     for line in &parts.findings.lines {

@@ -69,7 +69,7 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
             true => interval,
             false => format!(" ({interval})"),
         };
-        format!("; damaged {words}{interval}")
+        format!("; damaged {words}{interval}{}", healthy::smooth(parts))
     });
     let other_axis = |channel: &ChannelStatistics| {
         let (rms, ratio, why) = parts.beside_healthy(&channel.name)?;

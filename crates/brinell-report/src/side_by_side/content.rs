@@ -165,6 +165,18 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     if sides.iter().any(|side| ends(side) != ends(&sides[0])) {
         warn(BANDWIDTHS);
     }
+    let first = &sides[0].loaded.scenario;
+    let both_differ = |side: &Side| {
+        let own = &side.loaded.scenario;
+        own.simulation.laws != first.simulation.laws
+            && (&own.defects, &own.bearing, &own.operation) != (&first.defects, &first.bearing, &first.operation)
+    };
+    if sides.iter().any(both_differ) {
+        warn(
+            "the runs' sets of laws differ (simulation.laws), and not they alone: a ratio is of laws and of what else differs together; \
+             --set simulation.laws=mechanics puts all runs under one",
+        );
+    }
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     if sides.iter().any(|side| duration(side) != duration(&sides[0])) {
         warn(

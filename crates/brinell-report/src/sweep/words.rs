@@ -3,7 +3,7 @@
 use super::plot::{IndicatorLine, IndicatorPlot};
 use crate::number::{raised, significant};
 
-/// Smallest and largest value of the first plot, and where they are.
+/// Smallest and largest value of the first plot, and where they are; and where its lines do not differ beyond scatter, that.
 pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
     let Some(plot) = plots.first() else {
         return String::new();
@@ -20,6 +20,7 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
     if all.len() < 2 {
         return String::new();
     }
+    let alike = are_alike(&plot.lines);
     let described = |(value, x, line): &(f64, f64, String)| {
         let at = match plot.x_names.get(*x as usize) {
             Some(name) => name.clone(),
@@ -27,6 +28,7 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
             None => format!("{} {}", significant(*x, 4), raised(&plot.x_unit)),
         };
         let beside = match (plot.lines.len(), line.is_empty(), plot.legend.is_empty()) {
+            _ if alike => String::new(),
             (2.., false, false) => format!(", {} = {line}", plot.legend),
             (2.., false, true) => format!(", {line}"),
             _ => String::new(),
@@ -34,7 +36,30 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
         let unit = raised(&plot.unit);
         format!("{} {unit} ({} = {at}{beside})", significant(*value, 3), plot.x_label)
     };
-    format!("{}: from {} to {}.", plot.label, described(least), described(most))
+    let lines = match (alike, plot.legend.is_empty()) {
+        (false, _) => String::new(),
+        (true, true) => "; no difference beyond scatter between the lines".to_owned(),
+        (true, false) => {
+            let labels: Vec<&str> = plot.lines.iter().map(|line| &*line.label).collect();
+            format!("; {} = {}: no difference beyond scatter", plot.legend, labels.join(", "))
+        }
+    };
+    format!("{}: from {} to {}{lines}.", plot.label, described(least), described(most))
+}
+
+/// Whether, wherever several lines have a value, the 95 % intervals of all overlap.
+fn are_alike(lines: &[IndicatorLine]) -> bool {
+    let Some((first, others)) = lines.split_first() else { return false };
+    let interval_at = |line: &IndicatorLine, x: f64| line.points.iter().find(|p| p.x == x).and_then(|p| p.interval);
+    !others.is_empty()
+        && !first.points.is_empty()
+        && first.points.iter().all(|point| {
+            let all: Option<Vec<(f64, f64)>> = lines.iter().map(|line| interval_at(line, point.x)).collect();
+            all.is_some_and(|all| {
+                let highest_low = all.iter().map(|i| i.0).fold(f64::NEG_INFINITY, f64::max);
+                all.iter().all(|i| highest_low <= i.1)
+            })
+        })
 }
 
 /// What the marks of the plots mean, of those that are there.

@@ -5,7 +5,7 @@ mod open;
 
 use super::bands::LOWEST_TOP;
 use super::drift::Drift;
-use super::family::{Family, Finding};
+use super::family::{FAINT, Family, Finding};
 use super::result::CHANGED;
 use super::verdict::{TELLING, TELLING_CAGE};
 use super::{Analysis, Flaw, Unexplained, Verdict};
@@ -110,7 +110,7 @@ impl Analysis {
         text.extend(level(self));
         if self.causes().next().is_none() && self.hiding_drift().is_none() && !faint.is_empty() {
             text.push(format!(
-                "Lines of {} are present, below the limits of damage: sound machines have such lines.",
+                "Lines of {} are present, below the limits of damage: healthy machines have such lines.",
                 listed(&faint)
             ));
         }
@@ -159,6 +159,8 @@ impl Analysis {
                 Finding::Damage => format!("damage, {}", self.clarity(f)),
                 Finding::Shared(with) => format!("explained by {with}"),
                 Finding::Open => "cannot tell".into(),
+                Finding::Faint if f.modulation < FAINT => format!("present, modulation below {:.0} %", 100.0 * FAINT),
+                Finding::Faint if f.score < f.limit => format!("present, score {:.1} of {:.1}", f.score, f.limit),
                 Finding::Faint => "present, below the limit".into(),
                 Finding::Grown => "grown since healthy".into(),
                 Finding::AsBefore => "as in the healthy record".into(),
@@ -288,7 +290,7 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
         text.extend(multiple(analysis, family).or_else(|| inverter(analysis, family)));
         if analysis.is_in_pieces() {
             text.push(format!(
-                "Records of fewer than {PIECES:.0} turns, whose lines do not tell the speed: at a wrong speed sound bearings look the same."
+                "Records of fewer than {PIECES:.0} turns, whose lines do not tell the speed: at a wrong speed healthy bearings look the same."
             ));
         }
     }

@@ -175,6 +175,10 @@ fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError>
         return Err(wrong("a value is missing".into()));
     }
     let parts: Vec<&str> = item.split(':').map(str::trim).collect();
+    let dash = item.rfind('-').filter(|at| item[..*at].ends_with(|c: char| c.is_ascii_digit()));
+    if dash.is_some_and(|at| item[..at].parse::<f64>().is_ok() && item[at + 1..].parse::<f64>().is_ok()) {
+        return Err(wrong("a range is FROM:TO:STEP".into()));
+    }
     if parts.len() == 1 || parsed(parts[0]).is_none() {
         all.push(item.into());
         return Ok(());
@@ -312,6 +316,7 @@ mod tests {
             ("a.b=", "a.b = : a value is missing"),
             ("a.b=1,,2", "a value is missing"),
             ("a.b=1:5", "a range has three parts, FROM:TO:STEP"),
+            ("a.b=1000-3000", "a range is FROM:TO:STEP"),
             ("a.b=1:5:0", "the range's step is zero"),
             ("a.b=5:1:2", "a.b = 5:1:2: the range's step leads away from its end; a step of -2 would reach it"),
             ("a.b=1:5:-2", "a step of 2 would reach it"),

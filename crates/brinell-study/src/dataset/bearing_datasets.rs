@@ -40,7 +40,7 @@ fn yaml(about: &About) -> String {
         ("title", title),
         ("description", description(about)),
         ("license", licence),
-        ("citation", citation(about)),
+        ("citation", brinell::cite::text(&about.brinell)),
     ] {
         text += &format!("{key}: {}\n", quoted(&value));
     }
@@ -77,15 +77,6 @@ fn description(about: &About) -> String {
         text += &format!(" How damage grows is an assumption, and no prediction: {}.", histories.assumed);
     }
     text
-}
-
-/// What to cite: the facts of CITATION.cff.
-fn citation(about: &About) -> String {
-    format!(
-        "The brinell developers. brinell: vibration of rolling bearings with real damage (version {}) [software].\nLi, X., Liu, J., Ding, S., Xu, Y., Zhang, Y., & Xia, M. (2023). \
-         Dynamic modeling and vibration analysis of double row cylindrical roller bearings with irregular-shaped defects. Nonlinear Dynamics. doi:10.1007/s11071-023-09164-5",
-        about.brinell
-    )
 }
 
 /// A string of JSON is one of YAML, but for characters that YAML's readers refuse in a text: these are escaped, with all that

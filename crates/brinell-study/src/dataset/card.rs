@@ -195,6 +195,7 @@ fn card(about: &About) -> String {
             sources.plan.trim_end()
         );
     }
+    let _ = write!(card, "\n## Citing\n\n{}\n", brinell::cite::text(&about.brinell).replace('\n', "\n\n"));
     if about.splits.iter().any(|split| split.name == Part::HeldOut.word()) {
         card +=
             "\nLabels and truth of the split `held_out` are not published. Its runs have signals, speed and load.\n";

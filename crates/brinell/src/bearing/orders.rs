@@ -7,6 +7,7 @@ use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::did_you_mean::{did_you_mean, nearest_few};
 use crate::scenario::Bearing;
+use crate::signal::short;
 use std::f64::consts::TAU;
 
 /// Of a scenario's bearing.
@@ -184,13 +185,14 @@ impl KnownBearing {
         Ok(match self {
             Self::Catalogue(entry) => {
                 let geometry = entry.geometry()?;
-                let mut words = format!("{}: {}", entry.name, entry.title);
+                let [diameter, pitch] = [geometry.roller_diameter, geometry.pitch_diameter].map(|m| short(1e3 * m, 5));
+                let mut words = format!(
+                    "{}: {}; {} elements a row of {diameter} mm on a pitch circle of {pitch} mm",
+                    entry.name, entry.title, geometry.rollers_per_row
+                );
                 if let Some(how) = entry.estimates_orders() {
                     let how = how.strip_prefix("Estimated: ").unwrap_or(how);
-                    let z = geometry.rollers_per_row;
-                    words += &format!(
-                        "; number or size of its {z} elements a row is estimated ({how}), and may differ between makers"
-                    );
+                    words += &format!("; their number or size is estimated ({how}), and may differ between makers");
                 }
                 (orders(&geometry), words)
             }

@@ -31,8 +31,20 @@ pub(super) fn bearing(k: &mut Keys, (model, laws): (ModelKind, Laws), b: &mut Be
         stated(Element::Roller, "cylindrical rollers, as in the paper"),
         &mut b.element,
     );
-    k.key(key("inner_raceway_diameter_mm", "D_i").above(0.0), Catalogued, &mut b.inner_raceway_diameter_mm);
-    k.key(key("outer_raceway_diameter_mm", "D_o").above(0.0), Catalogued, &mut b.outer_raceway_diameter_mm);
+    let of_bearing = |k: &mut Keys, name| k.foretold::<f64>("bearing", name);
+    let of_circle = of_bearing(k, "pitch_diameter_mm").zip(of_bearing(k, "roller_diameter_mm")).filter(|(p, d)| p > d);
+    // Where a sheet prints pitch circle and balls, and no grooves.
+    let raceway = |of: fn((f64, f64)) -> f64, how| of_circle.map_or(Catalogued, |circle| derived(of(circle), how));
+    k.key(
+        key("inner_raceway_diameter_mm", "D_i").above(0.0),
+        raceway(|(p, d)| p - d, "pitch diameter less roller diameter"),
+        &mut b.inner_raceway_diameter_mm,
+    );
+    k.key(
+        key("outer_raceway_diameter_mm", "D_o").above(0.0),
+        raceway(|(p, d)| p + d, "pitch diameter plus roller diameter"),
+        &mut b.outer_raceway_diameter_mm,
+    );
     let mean = 0.5 * (b.inner_raceway_diameter_mm + b.outer_raceway_diameter_mm);
     k.key(
         key("pitch_diameter_mm", "D_m, circle of the roller centres").above(0.0),

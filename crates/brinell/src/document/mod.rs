@@ -5,6 +5,7 @@
 
 mod alone;
 mod bearing_keys;
+mod broken;
 mod cage_keys;
 mod checks;
 mod contact_keys;
@@ -40,7 +41,6 @@ mod speed_value;
 mod table_value;
 mod toml_text;
 mod tree;
-mod unclosed;
 mod value_type;
 mod walk;
 mod waviness_value;

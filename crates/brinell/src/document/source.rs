@@ -6,10 +6,10 @@ use std::ops::Range;
 use serde_json::Value as Json;
 use toml::de::{DeTable, DeValue};
 
+use super::broken::{bare_value, bracket_before};
 use super::problem::{Place, Problem, Severity, cut};
 use super::problems::{MOST_OF_A_KIND, Problems};
 use super::toml_text::{float, key_text, quote};
-use super::unclosed::bracket_before;
 
 /// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper
 /// would end on the stack.
@@ -246,7 +246,8 @@ pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Pr
                 }
                 if !same_line {
                     problems.add_of(Severity::Error, "not valid TOML", || {
-                        let message = format!("not valid TOML: {}", error.message());
+                        let why = start.and_then(|start| bare_value(text, start));
+                        let message = format!("not valid TOML: {}", why.as_deref().unwrap_or(error.message()));
                         (Problem::error("", message), error.span())
                     });
                 }

@@ -342,6 +342,12 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
         ("defects.0.shape", "{ circle = { diameter_mm = 7 } }", "defects.0.shape.circle.diameter_mm", "7 mm is wider"),
         (
             "defects.0.shape",
+            "{ circle = { diameter_mm = 0.004 } }",
+            "defects.0.shape.circle.diameter_mm",
+            "in m instead of mm?",
+        ),
+        (
+            "defects.0.shape",
             "{ random = { length_mm = 3, width_mm = 7 } }",
             "defects.0.shape.random.width_mm",
             "it acts over 6 mm",

@@ -105,11 +105,15 @@ impl Checker<'_> {
         } else if (pitch - d - inner).abs() > tolerance || (pitch + d - outer).abs() > tolerance {
             let low = (inner + d).max(outer - d) - tolerance;
             let high = (inner + d).min(outer - d) + tolerance;
+            let preset = match self.s.bearing.preset.is_some() {
+                true => "; the preset's raceways hold where none are given: give both, as D_m - d and D_m + d",
+                false => "",
+            };
             self.error(
                 PITCH,
                 format!(
                     "the gap is in the wrong place: D_m - d = {} mm against D_i = {} mm, D_m + d = {} mm against \
-                     D_o = {} mm, {} mm allowed",
+                     D_o = {} mm, {} mm allowed{preset}",
                     short(pitch - d),
                     short(inner),
                     short(pitch + d),

@@ -7,6 +7,8 @@ use crate::scenario::{Defect, Element, Shape, Surface};
 
 /// Rollers' lengths beyond which a width of damage is a slip of the unit, and not damage over the whole raceway.
 pub(super) const MOST_ROLLERS: f64 = 10.0;
+/// Width of damage below which a unit is wrong, mm.
+const NARROWEST_MM: f64 = 0.02;
 const LENGTH: &str = "bearing.roller_length_mm";
 const BALL: &str = "bearing.roller_diameter_mm";
 
@@ -83,6 +85,10 @@ impl Checker<'_> {
         } else if width > length {
             let message = format!("{message}; it acts over {} mm, what is beyond is left out", short(length));
             self.warn(&key, message, String::new(), &[also]);
+        } else if width < NARROWEST_MM {
+            let message =
+                format!("{} mm is narrower than any damage that is seen; lengths in m instead of mm?", short(width));
+            self.warn(&key, message, format!(">= {NARROWEST_MM}"), &[]);
         }
     }
 
