@@ -141,6 +141,9 @@ pub(crate) enum BearingCommand {
         #[arg(long)]
         json: bool,
     },
+    /// A name alone is shown, with --json or without.
+    #[command(external_subcommand)]
+    Named(Vec<String>),
 }
 
 #[derive(Debug, Args)]

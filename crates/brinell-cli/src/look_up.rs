@@ -36,6 +36,11 @@ pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
             let json = shown(find(name)?, clearance_of(name));
             say::json(&json);
         }
+        BearingCommand::Named(words) => {
+            let (options, name): (Vec<&str>, Vec<&str>) =
+                words.iter().map(String::as_str).partition(|w| *w == "--json");
+            return bearing(&BearingCommand::Show { name: name.join(" "), json: !options.is_empty() });
+        }
         BearingCommand::Show { name, json: false } => {
             let known = find(name)?;
             say!("{}: {}", known.name(), known.title());

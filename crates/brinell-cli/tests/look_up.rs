@@ -132,6 +132,12 @@ fn regress_bearings_are_listed_and_shown_with_their_sources() {
         assert!(ends.iter().all(|end| *end == ends[0]), "not aligned:\n{shown}");
     }
     call(&["bearing", "show", "NN307"]).exits(2).complains(&["no bearing \"NN307\"", "did you mean NN3007?"]);
+    // The name alone is shown too.
+    assert_eq!(
+        call(&["bearing", "NU", "206", "--json"]).exits(0).out,
+        call(&["bearing", "show", "NU206", "--json"]).exits(0).out
+    );
+    call(&["bearing", "NN307"]).exits(2).complains(&["did you mean NN3007?"]);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::encode::base64;
 use crate::font;
 use crate::layout::Layout;
 use crate::markup::escape;
-use crate::number::{Height, runs};
+use crate::number::{Height, runs, shown_unit};
 use crate::picture::Picture;
 use sha2::{Digest, Sha256};
 
@@ -64,7 +64,7 @@ pub(crate) fn alert(page: &mut String, strong: &str, words: &str) {
 
 /// The end of a page whose `main` is open; `script` is what it runs beside what every page does.
 pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
-    let _ = writeln!(page, "</main>\n<footer>{}</footer>", escape(footer));
+    let _ = writeln!(page, "</main>\n<footer>{} To cite brinell: <code>brinell cite</code>.</footer>", escape(footer));
     let parts = [&SCRIPT[..], script, &[include_str!("script/frame.js")]];
     // A script within the page is no module.
     let script = format!("\n{}", parts.concat().concat()).replace("\nexport ", "\n");
@@ -133,13 +133,7 @@ pub(crate) fn none(page: &mut String, words: &str) {
 
 /// A unit with raised exponents.
 pub(crate) fn unit_html(unit: &str) -> String {
-    // Keys and files write u for µ, and deg for °.
-    let written = match (unit, unit.strip_prefix('u')) {
-        ("deg", _) => "°".to_owned(),
-        (_, Some(rest @ ("m" | "J" | "s"))) => format!("µ{rest}"),
-        _ => unit.to_owned(),
-    };
-    runs(&written)
+    runs(shown_unit(unit))
         .iter()
         .map(|run| {
             let text = escape(&run.text);

@@ -50,9 +50,16 @@ pub fn plural(n: usize, word: &str) -> String {
     format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }
 
-/// A unit as people read it: a plain number has none.
+/// A unit as people read it: a plain number has none; keys and files write u for µ, and deg for °.
 pub fn shown_unit(unit: &str) -> &str {
-    if unit == "1" { "" } else { unit }
+    match unit {
+        "1" => "",
+        "um" => "µm",
+        "us" => "µs",
+        "uJ" => "µJ",
+        "deg" => "°",
+        unit => unit,
+    }
 }
 
 /// A text that begins with a capital.

@@ -219,7 +219,7 @@ pub(crate) fn assumptions(page: &mut String, all: &[Provenance]) {
     let _ = writeln!(
         page,
         "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named. What the assumed ones do to the levels: \
-         <code>brinell run --spread</code>; how far to trust a number: <code>docs/src/trust.md</code>.</p>",
+         <code>brinell run --spread</code>; how far to trust a number: the page <em>How far to trust a number</em> of the documentation.</p>",
         all.len()
     );
     let part = |estimated: bool| all.iter().filter(move |a| a.assumed == estimated);

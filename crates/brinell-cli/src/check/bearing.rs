@@ -178,7 +178,7 @@ pub(super) fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone,
         }
         false => String::new(),
     };
-    let without = if s.defects.is_empty() { "" } else { "; without the damage" };
+    let without = if s.defects.is_empty() { "" } else { " (of the bearing without its damage)" };
     say!("  load zone               {:.1} deg wide{from_to}{without}", zone.extent.to_degrees());
     say!(
         "  inner ring from outer   ({}, {}) um",

@@ -10,8 +10,8 @@ use brinell::simulate::End;
 use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
-/// Where it is said how far results can be trusted.
-const TRUST: &str = "  frequencies hold, levels hang on what is assumed (--spread): docs/src/trust.md";
+/// How far results can be trusted.
+const TRUST: &str = "  frequencies hold; levels depend on assumed values: --spread tells how much";
 
 /// A few lines on what came out.
 pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written: &[PathBuf]) -> Vec<String> {

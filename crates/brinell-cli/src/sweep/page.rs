@@ -176,7 +176,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
             label: words(name),
             unit: unit.to_owned(),
             x_label: short(points, x_key),
-            x_unit: points.read.units.get(x_key).copied().unwrap_or("").into(),
+            x_unit: points.read.units.get(x_key).copied().map_or("", shown_unit).into(),
             x_names: match numeric {
                 Some(_) => Vec::new(),
                 None => values.iter().map(|v| (*v).to_owned()).collect(),

@@ -122,10 +122,14 @@ impl CustomerReport {
             count => said.push(("Note:", format!("there are {count} remarks on the record; see page 2."))),
         }
         let of = if lead.bearings.len() > 1 { format!("{}: ", lead.bearing) } else { String::new() };
+        let clearest = match !self.all.rows.is_empty() && lead.verdict == Verdict::Damage {
+            true => format!(", clearest at {}", lead.channel),
+            false => String::new(),
+        };
         let mut blocks = vec![
             Block::Title(self.title().to_owned()),
             Block::Facts(facts),
-            Block::Result { tone: lead.tone(), headline: of + &headline(lead), said },
+            Block::Result { tone: lead.tone(), headline: of + &headline(lead) + &clearest, said },
         ];
         if !self.all.rows.is_empty() {
             blocks.push(Block::Table { table: self.all.clone(), most: CHANNELS });

@@ -22,6 +22,15 @@
   });
   reach();
   addEventListener("resize", reach);
+  // On a phone what is looked up, and is long, stands folded.
+  const long = ["assumptions", "audits", "slip", "scenario"].flatMap((id) => ["> .scroll", "> pre"].map((what) => `#${id} ${what}`));
+  if (matchMedia("(max-width: 700px)").matches) document.querySelectorAll(long.join()).forEach((whole) => {
+    if (whole.offsetHeight < 600) return;
+    const fold = document.createElement("details"), name = document.createElement("summary"), rows = whole.querySelectorAll("tbody tr").length;
+    name.textContent = rows ? `Table of ${rows} rows` : "Whole text";
+    whole.replaceWith(fold);
+    fold.append(name, whole);
+  });
   // A link to what is folded opens it.
   const open = () => { const at = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1))); const folded = at && at.querySelector(":scope > details"); if (folded) folded.open = true; };
   open();

@@ -72,7 +72,7 @@ pub fn sweep_legend(plots: &[IndicatorPlot]) -> String {
     let mut parts = Vec::new();
     if points().any(|p| p.interval.is_some()) {
         parts.push(
-            "Dots: averages over whole revolutions, with their 95 % intervals, scatter only: levels hang on what is assumed too \
+            "Dots: averages over whole revolutions, with their 95 % intervals, scatter only: levels depend on assumed values too \
              (`brinell run --spread`).",
         );
     }

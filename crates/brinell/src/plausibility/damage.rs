@@ -67,7 +67,8 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model, zone: &StaticLoadZo
                     "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: no load presses {element}s onto it, and only impacts \
                      of unloaded {element}s remain, which centrifugal force and weight take into it",
                     zone.extent.to_degrees(),
-                    degrees(zone.middle)
+                    // Not -0.
+                    degrees(zone.middle).round() + 0.0
                 ),
                 format!("{from:.0} to {to:.0}, counter-clockwise"),
             )
