@@ -91,7 +91,7 @@ def jobs(all_records, ways):
                 if all(abs(ratio - 1) >= 0.035 for ratio in near):
                     yield "asked about other bearings", None, f"{r['id']} {other}", asked
                 elif any(abs(o / true - 1) <= 0.02 for part, o in orders(other).items() if part != truth):
-                    yield "of which another part's frequency is the true one", None, f"{r['id']} {other}", asked
+                    yield "bearings of which another part has the true frequency", None, f"{r['id']} {other}", asked
 
 
 def sums(all_records):
