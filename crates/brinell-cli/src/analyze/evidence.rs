@@ -8,8 +8,8 @@ const MOST: usize = 8;
 
 /// Rows with evidence: damage first, the highest score at the head, then what cannot be told, then the others.
 fn most_telling(rows: &[Row]) -> Vec<(usize, &Evidence)> {
-    let of = |(k, row): (usize, &'_ Row)| Some((k, row.found.as_ref().ok()?.evidence.as_deref()?));
-    let mut all: Vec<(usize, &Evidence)> = rows.iter().enumerate().filter_map(of).collect();
+    let all = rows.iter().enumerate().filter_map(|(k, row)| Some((k, row.found.as_ref().ok()?.evidence.as_deref()?)));
+    let mut all: Vec<(usize, &Evidence)> = all.collect();
     all.sort_by(|a, b| a.1.before(b.1));
     all
 }
@@ -17,8 +17,10 @@ fn most_telling(rows: &[Row]) -> Vec<(usize, &Evidence)> {
 /// Lets go of what the page will not show.
 pub(super) fn keep_most_telling(rows: &mut [Row]) {
     let left: Vec<usize> = most_telling(rows).into_iter().skip(MOST).map(|(k, _)| k).collect();
-    for found in left.into_iter().filter_map(|k| rows[k].found.as_mut().ok()) {
-        found.evidence = None;
+    for k in left {
+        if let Ok(found) = &mut rows[k].found {
+            found.evidence = None;
+        }
     }
 }
 
