@@ -215,12 +215,9 @@ fn prop_every_channel_shows_what_its_verdict_rests_on_the_damaged_first() {
         assert!(folder.path().join(format!("look/plots/envelope-spectrum-{number}.svg")).is_file());
     }
     // Damage alone runs through the plot, and each verdict is told once.
-    assert_eq!(
-        all.iter().map(|(_, _, block)| block.contains("damage, clear</td>")).collect::<Vec<_>>(),
-        [true, false]
-    );
+    assert_eq!(all.iter().map(|(_, _, block)| block.contains("damage, clear</td>")).collect::<Vec<_>>(), [true, false]);
     assert_eq!(page.matches("No damage found").count(), 1);
-    assert!(page.contains("the same command with its --channel alone"));
+    assert!(page.contains("the same command with its <code>--channel</code> alone"));
 }
 
 #[test]

@@ -24,15 +24,15 @@ pub(super) fn keep_most_telling(rows: &mut [Row]) {
     }
 }
 
-/// Each verdict in words, and of those that say most what it rests on.
-pub(super) fn chapter(rows: &[Row], each: Each) -> Option<Chapter> {
+/// Each verdict in words, and of those that say most what it rests on; `called` is what the table calls a row.
+pub(super) fn chapter(rows: &[Row], each: Each, called: impl Fn(usize) -> String) -> Option<Chapter> {
     let shown = most_telling(rows);
     let is_shown = |k: usize| shown.iter().any(|(shown, _)| *shown == k);
-    let told = rows.iter().enumerate().filter_map(|(k, row)| Some((k, row, row.found.as_ref().ok()?)));
+    let told = rows.iter().enumerate().filter_map(|(k, row)| Some((k, row.found.as_ref().ok()?)));
     let (mut left, mut others) = (0, Vec::new());
-    for (_, row, found) in told.filter(|(k, ..)| !is_shown(*k)) {
+    for (k, found) in told.filter(|(k, _)| !is_shown(*k)) {
         left += usize::from(!found.too_short);
-        others.extend(found.sentences.iter().map(|sentence| vec![row.name.clone(), sentence.clone()]));
+        others.extend(found.sentences.iter().map(|sentence| vec![called(k), sentence.clone()]));
     }
     let mut pieces = Vec::new();
     if left > 0 {
@@ -47,9 +47,9 @@ pub(super) fn chapter(rows: &[Row], each: Each) -> Option<Chapter> {
         pieces.push(Evidence::note());
     }
     for (place, (k, evidence)) in shown.iter().enumerate() {
-        let (name, tone) = (&rows[*k].name, evidence.tone());
+        let tone = evidence.tone();
         let sentences = rows[*k].found.iter().flat_map(|found| &found.sentences);
-        pieces.push(Piece::Heading(name.clone()));
+        pieces.push(Piece::Heading(called(*k)));
         pieces.push(Piece::Verdict(tone, sentences.cloned().collect::<Vec<_>>().join(" ")));
         pieces.push(evidence.folded(k + 1, place == 0 && tone == Tone::Bad));
     }

@@ -47,7 +47,7 @@ impl Each {
     pub(super) fn alone(self) -> &'static str {
         match self {
             Self::File => "the same command with its file alone",
-            Self::Channel => "the same command with its --channel alone",
+            Self::Channel => "the same command with its `--channel` alone",
         }
     }
 }

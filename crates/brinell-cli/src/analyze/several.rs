@@ -204,11 +204,12 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
     let each = Each::of(args);
     let of = each.heading();
     let all = format!("{of}s");
+    let called = |k: usize| label(dated.map(|trend| &trend.times), k, &rows[k].name);
     let table = Table::new(
         &*all,
         ["#No.", of, "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],
         (rows.iter().enumerate()).map(|(i, row)| {
-            let mut cells = vec![(i + 1).to_string(), label(dated.map(|trend| &trend.times), i, &row.name)];
+            let mut cells = vec![(i + 1).to_string(), called(i)];
             match &row.found {
                 Ok(found) => cells.extend(found.cells()),
                 Err(_) => cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned)),
@@ -223,7 +224,7 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
     }
     let mut chapters: Vec<Chapter> = dated.into_iter().flat_map(trend::chapters).collect();
     chapters.push(Chapter::table("files", &all, table));
-    chapters.extend(evidence::chapter(rows, each));
+    chapters.extend(evidence::chapter(rows, each, called));
     chapters.extend(Chapter::failures(&format!("{all} without a result"), of, failures));
     if dated.is_none() {
         let plots = plots(rows, each).into_iter().map(Piece::Trend);
