@@ -429,6 +429,14 @@ mod tests {
                     Piece::Map(HeatMap { label: "Over both".into(), unit: "m/s^2".into(), ..HeatMap::default() }),
                     Piece::Code("load_n = [0.0, -3e3] # <down>".into()),
                     Piece::Claims(vec![card]),
+                    Piece::Folded(Folded {
+                        title: "What is < folded".into(),
+                        open: false,
+                        pieces: vec![
+                            Piece::Words("folded words".into()),
+                            Piece::Plan("folded-plan".into(), Box::default()),
+                        ],
+                    }),
                     Piece::Claims(vec![]),
                 ],
             )],
@@ -450,11 +458,12 @@ mod tests {
             "Depends on the filter",
             "&lt;script&gt;",
             "No claim belongs",
+            "<details><summary><h4>What is &lt; folded</h4></summary>\n<p>folded words</p>",
         ] {
             assert!(page.contains(part), "{part}");
         }
         let pictures = pictures(&study, Layout::Wide);
-        assert_eq!(pictures.len(), 4);
-        assert_eq!(pictures[3].name, "seen-from-above");
+        assert_eq!(pictures.len(), 5);
+        assert_eq!([&*pictures[3].name, &*pictures[4].name], ["seen-from-above", "folded-plan"]);
     }
 }
