@@ -178,3 +178,70 @@ fn regress_several_channels_are_a_row_each_and_the_clearest_leads() {
         .exits(1)
         .complains(&["error: 1 of 2 signals could not be analysed"]);
 }
+
+/// The page, and of each channel that has one what is under its heading: its name, the verdict's colour, and the rest.
+fn shown(folder: &TempDir) -> (String, Vec<(String, String, String)>) {
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap().replace("<wbr>", "");
+    let verdicts = page.split("<section id=\"verdicts\">").nth(1).unwrap().split("<section id=").next().unwrap();
+    let one = |block: &str| {
+        let (name, rest) = block.split_once("</h3>").unwrap();
+        let class = rest.split("<p class=\"verdict ").nth(1).unwrap().split('"').next().unwrap();
+        (name.to_owned(), class.to_owned(), rest.to_owned())
+    };
+    let all = verdicts.split("<h3>").skip(1).map(one).collect();
+    (page, all)
+}
+
+#[test]
+fn prop_every_channel_shows_what_its_verdict_rests_on_the_damaged_first() {
+    let folder = tempdir().unwrap();
+    let rows = impacts(0.0).into_iter().zip(impacts(6.0)).map(|(x, y)| format!("{x},{y}\n"));
+    fs::write(folder.path().join("rig.csv"), format!("radial,axial\n{}", rows.collect::<String>())).unwrap();
+    let more = ["--channel", "radial", "--channel", "axial", "-o", "look"];
+    brinell(folder.path(), &call(&["rig.csv"], &more)).exits(0);
+    let (page, all) = shown(&folder);
+    let heads: Vec<(&str, &str)> = all.iter().map(|(name, class, _)| (&**name, &**class)).collect();
+    assert_eq!(heads, [("axial", "bad"), ("radial", "good")]);
+    for ((_, _, block), (number, open, says)) in
+        all.iter().zip([(2, "<details open>", "Outer race damage, clear"), (1, "<details>", "No damage found")])
+    {
+        // The verdict above, the rest under a line that opens it: lanes of the four frequencies, and their table.
+        let (verdict, rest) = block.split_once(open).unwrap();
+        assert!(verdict.contains(says), "{verdict}");
+        let id = format!("envelope-{number}");
+        for part in [&*format!("data-plot=\"{id}\""), &format!("data-chart=\"{id}\""), "BPFO", "BPFI", "inner race"] {
+            assert!(rest.contains(part), "{part}");
+        }
+        assert!(folder.path().join(format!("look/plots/envelope-spectrum-{number}.svg")).is_file());
+    }
+    // Damage alone runs through the plot, and each verdict is told once.
+    assert_eq!(all.iter().map(|(_, _, block)| block.contains("damage, clear</td>")).collect::<Vec<_>>(), [true, false]);
+    assert_eq!(page.matches("No damage found").count(), 1);
+    assert!(page.contains("the same command with its <code>--channel</code> alone"));
+}
+
+#[test]
+fn prop_of_many_files_the_most_telling_are_shown_and_the_page_stays_small() {
+    let folder = tempdir().unwrap();
+    let records = folder.path().join("records");
+    fs::create_dir(&records).unwrap();
+    for k in 1..=11 {
+        // Two are damaged, the later one more.
+        let strength = match k {
+            6 => 4.0,
+            10 => 8.0,
+            _ => 0.0,
+        };
+        column(&records.join(format!("r{k}.csv")), &impacts(strength));
+    }
+    column(&records.join("short.csv"), &impacts(6.0)[..2000]);
+    brinell(folder.path(), &call(&["records"], &["-o", "look"])).exits(0);
+    let (page, all) = shown(&folder);
+    let names: Vec<&str> = all.iter().map(|(name, ..)| &**name).collect();
+    assert_eq!(names, ["r10.csv", "r6.csv", "r1.csv", "r2.csv", "r3.csv", "r4.csv", "r5.csv", "r7.csv"]);
+    assert!(page.contains("Of 11, the 8 whose verdicts say most") && page.contains("with its file alone"), "{page}");
+    let others = page.split("Other verdicts").nth(1).unwrap().split("</table>").next().unwrap();
+    let told = ["r8.csv", "r9.csv", "r11.csv", "short.csv"].map(|name| others.matches(name).count());
+    assert_eq!((told, others.matches("r10.csv").count()), ([1; 4], 0));
+    assert!(page.len() < 1_500_000, "{} bytes", page.len());
+}

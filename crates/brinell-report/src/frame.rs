@@ -117,9 +117,17 @@ pub(crate) fn section(page: &mut String, id: &str, title: &str, write: &mut dyn 
 
 /// The same, which its heading opens.
 pub(crate) fn folded(page: &mut String, id: &str, title: &str, write: &mut dyn FnMut(&mut String)) {
-    let _ = writeln!(page, "<section id=\"{id}\">\n<details><summary><h2>{}</h2></summary>", escape(title));
+    let _ = writeln!(page, "<section id=\"{id}\">");
+    details(page, "h2", title, false, write);
+    page.push_str("</section>\n");
+}
+
+/// What its heading, of this level, opens and closes.
+pub(crate) fn details(page: &mut String, level: &str, title: &str, open: bool, write: &mut dyn FnMut(&mut String)) {
+    let open = if open { " open" } else { "" };
+    let _ = writeln!(page, "<details{open}><summary><{level}>{}</{level}></summary>", escape(title));
     write(page);
-    page.push_str("</details>\n</section>\n");
+    page.push_str("</details>\n");
 }
 
 /// Text as written in a file.

@@ -58,7 +58,9 @@ mod tables;
 mod thin;
 
 #[doc(hidden)]
-pub use analysis::{AnalysisReport, Analyzed, Findings, ZONES, called, level_lines, orders_in_hz, ratio, scaled};
+pub use analysis::{
+    AnalysisReport, Analyzed, Evidence, Findings, ZONES, called, level_lines, orders_in_hz, ratio, scaled,
+};
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
@@ -96,7 +98,7 @@ pub use orbit::{CageOrbit, CageOrbits};
 #[doc(hidden)]
 pub use overlay::{OverlaidCurve, Overlay, Vertical};
 #[doc(hidden)]
-pub use page::{Chapter, Figure, Piece, Stack};
+pub use page::{Chapter, Figure, Folded, Piece, Stack};
 pub use page::{Page, html, pictures};
 pub use picture::{CurveTable, Error, Picture};
 #[doc(hidden)]

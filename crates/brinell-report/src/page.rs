@@ -9,7 +9,7 @@ use crate::damage::{DamageView, damage_plan};
 use crate::data::Tone;
 use crate::embedded::Plot;
 use crate::fact::Fact;
-use crate::frame::{alert, close, code, contents, figure, folded, lead, none, open, section, unit_html};
+use crate::frame::{alert, close, code, contents, details, figure, folded, lead, none, open, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::{escape, prose};
 use crate::misfit::{Tried, course_plot, embed_course, embed_key, key_plot};
@@ -64,6 +64,8 @@ pub enum Piece {
     Code(String),
     /// Claims.
     Claims(Vec<ClaimCard>),
+    /// What a reader opens.
+    Folded(Folded),
     /// Markup with a form of its own.
     Markup(String),
 }
@@ -166,6 +168,17 @@ pub struct Stack {
     pub note: String,
 }
 
+/// Pieces under a line that opens and closes them.
+#[derive(Clone, Debug, Default)]
+pub struct Folded {
+    /// The line.
+    pub title: String,
+    /// Whether it is open to begin with.
+    pub open: bool,
+    /// In this order.
+    pub pieces: Vec<Piece>,
+}
+
 /// A heading and what is under it.
 #[derive(Clone, Debug, Default)]
 pub struct Chapter {
@@ -239,8 +252,16 @@ pub struct Page {
 
 /// The page's pictures, for saving as files.
 pub fn pictures(page: &Page, layout: Layout) -> Vec<Picture> {
-    let pieces = page.chapters.iter().flat_map(|chapter| &chapter.pieces);
-    layout.finished(pieces.filter_map(|piece| draw(piece, layout)).collect())
+    let chapters = page.chapters.iter().flat_map(|chapter| &chapter.pieces);
+    layout.finished(chapters.flat_map(unfolded).filter_map(|piece| draw(piece, layout)).collect())
+}
+
+/// A piece, or those folded in it.
+fn unfolded(piece: &Piece) -> Vec<&Piece> {
+    match piece {
+        Piece::Folded(folded) => folded.pieces.iter().flat_map(unfolded).collect(),
+        one => vec![one],
+    }
 }
 
 /// As a file holds it.
@@ -277,10 +298,7 @@ pub fn html(page: &Page) -> String {
     for chapter in shown() {
         let write = if chapter.folded { folded } else { section };
         write(&mut html, &chapter.id, &chapter.title, &mut |html| {
-            for piece in &chapter.pieces {
-                count += 1;
-                write_piece(html, piece, count);
-            }
+            chapter.pieces.iter().for_each(|piece| write_piece(html, piece, &mut count));
         });
     }
     close(html, &page.footer, &[page.script])
@@ -291,7 +309,9 @@ fn unprefixed(words: &str) -> &str {
     ["warning: ", "warning, "].iter().find_map(|prefix| words.strip_prefix(prefix)).unwrap_or(words)
 }
 
-fn write_piece(page: &mut String, piece: &Piece, count: usize) {
+/// `count`: pieces up to this one.
+fn write_piece(page: &mut String, piece: &Piece, count: &mut usize) {
+    *count += 1;
     let (title, caption) = match piece {
         Piece::Words(words) => {
             let _ = writeln!(page, "<p>{}</p>", escape(words));
@@ -325,6 +345,10 @@ fn write_piece(page: &mut String, piece: &Piece, count: usize) {
             }
             page.push_str("</div>\n");
             return figures.iter().for_each(|one| one.embed(page));
+        }
+        Piece::Folded(Folded { title, open, pieces }) => {
+            let write = &mut |page: &mut String| pieces.iter().for_each(|piece| write_piece(page, piece, count));
+            return details(page, "h4", title, *open, write);
         }
         Piece::Markup(markup) => return page.push_str(markup),
         Piece::Table(one) => return table(page, one),
@@ -405,6 +429,14 @@ mod tests {
                     Piece::Map(HeatMap { label: "Over both".into(), unit: "m/s^2".into(), ..HeatMap::default() }),
                     Piece::Code("load_n = [0.0, -3e3] # <down>".into()),
                     Piece::Claims(vec![card]),
+                    Piece::Folded(Folded {
+                        title: "What is < folded".into(),
+                        open: false,
+                        pieces: vec![
+                            Piece::Words("folded words".into()),
+                            Piece::Plan("folded-plan".into(), Box::default()),
+                        ],
+                    }),
                     Piece::Claims(vec![]),
                 ],
             )],
@@ -426,11 +458,12 @@ mod tests {
             "Depends on the filter",
             "&lt;script&gt;",
             "No claim belongs",
+            "<details><summary><h4>What is &lt; folded</h4></summary>\n<p>folded words</p>",
         ] {
             assert!(page.contains(part), "{part}");
         }
         let pictures = pictures(&study, Layout::Wide);
-        assert_eq!(pictures.len(), 4);
-        assert_eq!(pictures[3].name, "seen-from-above");
+        assert_eq!(pictures.len(), 5);
+        assert_eq!([&*pictures[3].name, &*pictures[4].name], ["seen-from-above", "folded-plan"]);
     }
 }

@@ -16,7 +16,7 @@ const SENTENCE: usize = 100;
 /// A table of words and numbers as they are to be read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// Heading.
+    /// Heading; empty under another one.
     pub title: String,
     /// Heads of the columns. The cells under a head that begins with `#` are numbers, those under `Unit` units.
     pub columns: Vec<String>,
@@ -270,7 +270,10 @@ fn number(cell: &str) -> String {
 }
 
 pub(crate) fn table(page: &mut String, table: &Table) {
-    let _ = writeln!(page, "<section>\n<h2>{}</h2>", escape(&table.title));
+    page.push_str("<section>\n");
+    if !table.title.is_empty() {
+        let _ = writeln!(page, "<h2>{}</h2>", escape(&table.title));
+    }
     let cell = |(k, cell): (usize, &String)| match table.columns.get(k).map(String::as_str) {
         Some("Unit") => unit_html(cell),
         Some(head) if head.starts_with('#') => number(cell),

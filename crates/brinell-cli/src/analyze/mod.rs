@@ -4,6 +4,7 @@ mod args;
 mod columns;
 mod customer;
 mod customer_args;
+mod evidence;
 mod files;
 mod page;
 mod plots;

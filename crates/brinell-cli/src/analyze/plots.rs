@@ -1,12 +1,8 @@
 //! Levels and scores of several files, over their names.
 
-use super::rows::{Found, Row};
+use super::rows::{Each, Found, Row};
 use brinell::signal::Estimate;
 use brinell_report::{IndicatorLine, IndicatorPlot, IndicatorPoint, scaled};
-
-/// What a row of a table is, as its heading says it.
-pub(super) const FILE: &str = "File";
-pub(super) const CHANNEL: &str = "Channel";
 
 /// Whether the files' names have room on the axis of a trend; else they are numbered.
 fn named(rows: &[Row]) -> bool {
@@ -27,19 +23,19 @@ fn line(rows: &[Row], label: &str, of: impl Fn(&Found) -> Option<Estimate>) -> I
     IndicatorLine { label: label.into(), points: rows.iter().enumerate().map(point).collect() }
 }
 
-/// `of`: what a row is, "File" or "Channel". Files may follow one another; channels stand side by side.
-pub(super) fn plots(rows: &[Row], of: &str) -> Vec<IndicatorPlot> {
+/// Files may follow one another; channels stand side by side.
+pub(super) fn plots(rows: &[Row], each: Each) -> Vec<IndicatorPlot> {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
     let plot = |name: &str, label: &str, unit: &str, lines: Vec<IndicatorLine>| IndicatorPlot {
         name: format!("trend-{name}"),
         label: label.into(),
         unit: unit.into(),
-        x_label: of.into(),
+        x_label: each.heading().into(),
         x_names: match named(rows) {
             true => rows.iter().map(|row| row.name.clone()).collect(),
             false => Vec::new(),
         },
-        ordered: of == FILE,
+        ordered: each == Each::File,
         lines,
         ..IndicatorPlot::default()
     };

@@ -2,7 +2,7 @@
 
 use super::args::AnalyzeArgs;
 use super::customer;
-use super::page::called;
+use super::page::{called, on_page};
 use super::records::Record;
 use crate::failure::Failure;
 use crate::say::{complain, short};
@@ -10,8 +10,47 @@ use brinell::analysis::{MachineClass, Unit};
 use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator};
 use brinell_measured::{Diagnosis, Findings, Measurement, Short, examine, is_too_short};
-use brinell_report::{Judged, NotJudged, scaled};
+use brinell_report::{Evidence, Judged, NotJudged, scaled};
 use serde_json::Value;
+
+/// What each row is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Each {
+    /// A file, of one channel.
+    File,
+    /// A channel of several, in each file.
+    Channel,
+}
+
+impl Each {
+    pub(super) fn of(args: &AnalyzeArgs) -> Self {
+        if args.signal.channel.len() < 2 { Self::File } else { Self::Channel }
+    }
+
+    /// In tables and on axes.
+    pub(super) fn heading(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Channel => "Channel",
+        }
+    }
+
+    /// On the terminal, where a channel's row names its file too.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::File => "file",
+            Self::Channel => "signal",
+        }
+    }
+
+    /// What one of them takes that has a page of its own.
+    pub(super) fn alone(self) -> &'static str {
+        match self {
+            Self::File => "the same command with its file alone",
+            Self::Channel => "the same command with its `--channel` alone",
+        }
+    }
+}
 
 /// What is kept of a file.
 pub(super) struct Row {
@@ -52,6 +91,8 @@ pub(super) struct Found {
     /// What contradicts what was given.
     pub(super) warnings: Vec<String>,
     pub(super) json: Value,
+    /// What its verdict rests on, where a page is wanted and it is one of those shown.
+    pub(super) evidence: Option<Box<Evidence>>,
     /// What the customer's report says of it, where that is wanted.
     pub(super) judged: Option<Box<Judged>>,
 }
@@ -63,7 +104,8 @@ pub(super) fn one(args: &AnalyzeArgs, Record { request, path, .. }: &Record) -> 
         false => {
             let findings = examine(measurement, request)?;
             let judged = args.is_reported().then(|| Box::new(customer::judged(&findings)));
-            Found { judged, ..Found::of(&findings) }
+            let evidence = args.folder().map(|_| Box::new(on_page(&findings, |of| Evidence::of(&of))));
+            Found { evidence, judged, ..Found::of(&findings) }
         }
     };
     if !args.quiet {
@@ -117,6 +159,7 @@ impl Found {
             other: None,
             rms_over_other: None,
             warnings: short.warnings,
+            evidence: None,
             judged: None,
         }
     }
@@ -173,6 +216,7 @@ impl Found {
             warnings: found.warnings.clone(),
             // The version is above all records.
             json: found.to_json(false),
+            evidence: None,
             judged: None,
         }
     }

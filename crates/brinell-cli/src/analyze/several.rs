@@ -3,9 +3,10 @@
 use super::args::AnalyzeArgs;
 use super::columns::{COLUMNS, in_columns};
 use super::customer;
-use super::plots::{CHANNEL, FILE, plots};
+use super::evidence;
+use super::plots::plots;
 use super::records::records;
-use super::rows::{Row, judged, one};
+use super::rows::{Each, Row, judged, one};
 use super::trend;
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::{ExitCode, Failure};
@@ -30,7 +31,7 @@ pub(super) fn analyze(
 ) -> Result<ExitCode, Failure> {
     let records = records(request, &args.signal.channel, files);
     let paths: Vec<String> = records.iter().map(|record| record.path.display().to_string()).collect();
-    let what = if args.signal.channel.len() < 2 { "file" } else { "signal" };
+    let what = Each::of(args).word();
     let of_same = |previous: &Value| {
         let records = previous["records"].as_array();
         records.is_some_and(|all| {
@@ -75,6 +76,7 @@ pub(super) fn analyze(
             }
         }
         rows.push(row);
+        evidence::keep_most_telling(&mut rows);
     }
     let failed = rows.iter().filter(|r| r.found.is_err()).count();
     if let [Row { name, found: Err(why) }, ..] = &rows[..]
@@ -130,7 +132,7 @@ fn label(times: Option<&Times>, record: usize, name: &str) -> String {
 
 /// The verdict of several channels of one machine: that of the highest score.
 fn leading(args: &AnalyzeArgs, rows: &[Row]) -> Option<String> {
-    if args.signal.channel.len() < 2 {
+    if Each::of(args) == Each::File {
         return None;
     }
     let found = rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
@@ -199,64 +201,62 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
     let damaged = found().filter(|f| f.lead.is_some()).count();
-    let leading = leading(args, rows);
-    let (of, all) = if leading.is_some() { (CHANNEL, "Channels") } else { (FILE, "Files") };
+    let each = Each::of(args);
+    let of = each.heading();
+    let all = format!("{of}s");
+    let called = |k: usize| label(dated.map(|trend| &trend.times), k, &rows[k].name);
     let table = Table::new(
-        all,
+        &*all,
         ["#No.", of, "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],
         (rows.iter().enumerate()).map(|(i, row)| {
-            let mut cells = vec![(i + 1).to_string(), label(dated.map(|trend| &trend.times), i, &row.name)];
+            let mut cells = vec![(i + 1).to_string(), called(i)];
             match &row.found {
                 Ok(found) => cells.extend(found.cells()),
                 Err(_) => cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned)),
             }
             cells
         }),
-        note(rows) + &alone(of),
+        note(rows) + &alone(rows, each),
     );
-    let verdicts = rows.iter().flat_map(|row| {
-        let sentences = row.found.iter().flat_map(|found| &found.sentences);
-        sentences.map(|sentence| vec![row.name.clone(), sentence.clone()])
-    });
-    let verdicts = Table::new("Verdicts", [of, "Verdict"], verdicts, "");
     let mut subtitle = format!("{}, damage called in {damaged}", say::plural(rows.len(), &of.to_lowercase()));
     if !failures.is_empty() {
         subtitle += &format!(", no result from {}", failures.len());
     }
     let mut chapters: Vec<Chapter> = dated.into_iter().flat_map(trend::chapters).collect();
-    chapters.push(Chapter::table("files", all, table));
-    if !verdicts.rows.is_empty() {
-        chapters.push(Chapter::table("verdicts", "Verdicts", verdicts));
-    }
+    chapters.push(Chapter::table("files", &all, table));
+    chapters.extend(evidence::chapter(rows, each, called));
     chapters.extend(Chapter::failures(&format!("{all} without a result"), of, failures));
     if dated.is_none() {
-        let plots = plots(rows, of).into_iter().map(Piece::Trend);
+        let plots = plots(rows, each).into_iter().map(Piece::Trend);
         let trend = std::iter::once(Piece::Note(TREND.into())).chain(plots).collect();
-        let title = if of == FILE { "Trend" } else { "Side by side" };
+        let title = match each {
+            Each::File => "Trend",
+            Each::Channel => "Side by side",
+        };
         chapters.push(Chapter::new("trend", title, title, trend));
     }
     let title = match (dated, rows.len()) {
         (Some(_), _) => "Trend of one machine",
         (None, 1) => "A signal too short for a verdict",
-        _ if of == CHANNEL => "Several channels",
+        _ if each == Each::Channel => "Several channels",
         _ => "Several signals",
     };
     Page {
         title: title.into(),
         subtitle,
-        lead: leading.unwrap_or_default(),
+        lead: leading(args, rows).unwrap_or_default(),
         analysed: true,
         version: MadeBy::now().to_string(),
-        warnings: warnings(rows).into_iter().chain(dated.into_iter().flat_map(|t| t.warnings.clone())).collect(),
+        warnings: warnings(rows, each).into_iter().chain(dated.into_iter().flat_map(|t| t.warnings.clone())).collect(),
         chapters,
         ..Page::default()
     }
 }
 
 /// Each kind once: a folder of files that one option contradicts would fill the page.
-fn warnings(rows: &[Row]) -> Vec<String> {
+fn warnings(rows: &[Row], each: Each) -> Vec<String> {
     let of = |(k, row): (usize, &Row)| Some((k, row.found.as_ref().ok()?.warnings.clone()));
-    of_results(rows.iter().enumerate().filter_map(of), "file", |k| &rows[k].name)
+    of_results(rows.iter().enumerate().filter_map(of), each.word(), |k| &rows[k].name)
 }
 
 /// Files whose verdict rests on another speed than the one given.
@@ -264,12 +264,15 @@ fn speeds_used(rows: &[Row]) -> impl Iterator<Item = (&str, &str)> {
     rows.iter().filter_map(|r| Some((r.name.as_str(), r.found.as_ref().ok()?.speed_used.as_deref()?)))
 }
 
-/// Where spectra are.
-fn alone(of: &str) -> String {
-    let which = if of == CHANNEL { "with its --channel alone" } else { "alone" };
+/// Where waveforms and spectra are.
+fn alone(rows: &[Row], each: Each) -> String {
+    if rows.len() < 2 {
+        return String::new();
+    }
     format!(
-        " Spectra, envelope spectrum and each part's lines are on the page of one {}: the same command {which}.",
-        of.to_lowercase()
+        " Waveform, spectrum, kurtogram and all indicators are on the page of one {}: {}.",
+        each.heading().to_lowercase(),
+        each.alone()
     )
 }
 

@@ -60,41 +60,80 @@ impl AnalysisReport {
     /// What the page of an analysis shows: `report.html` of `brinell analyze -o`.
     pub fn of_findings(of: &Findings) -> Self {
         let (m, a) = (&of.signal, of.signal.analysis);
+        let mut page = Self::evidence(of);
         let mut notes_shown = of.notes.to_vec();
         notes_shown.push(format!("{}; {}", of.speed, a.shaft_words()));
         notes_shown.extend(orders_in_hz(a));
         notes_shown.push(format!("bearing: {}", of.bearing));
         notes_shown.extend(notes(of.levels));
         notes_shown.push(format!("mean removed: {} {}", short(a.mean, 4), of.unit.name));
-        let (title, tone) = headline(a);
-        let mut page = Self {
-            title,
-            subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
-            version: MadeBy::now().to_string(),
-            verdict: of.verdict.into(),
-            tone,
-            warnings: of.warnings.to_vec(),
-            notes: notes_shown,
-            facts: facts(of),
-            names: vec![m.name.into()],
-            close_up_s: 10.0 / strike(a),
-            markers: markers(a),
-            order_tracked: a.options.rotation.is_some(),
-            kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
-            ..Self::default()
-        };
-        curves(&mut page, of);
+        page.envelopes.iter_mut().for_each(|envelope| envelope.note += &format!(" {LANES}"));
         if let Some((other, comparison)) = &of.against {
             page.tables.extend(differences(of, other, comparison));
         }
-        // What the verdict rests on comes first.
-        page.tables.insert(0, families(a));
         page.tables.push(indicators(of));
+        page = Self {
+            subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
+            version: MadeBy::now().to_string(),
+            warnings: of.warnings.to_vec(),
+            notes: notes_shown,
+            facts: facts(of),
+            close_up_s: 10.0 / strike(a),
+            kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
+            ..page
+        };
+        curves(&mut page, of);
         page
+    }
+
+    /// What the verdict rests on, and no more: envelope spectrum, marks, and the table of defect frequencies.
+    pub(super) fn evidence(of: &Findings) -> Self {
+        let (a, other) = (of.signal.analysis, of.against.as_ref());
+        let (title, tone) = headline(a);
+        let other = other.map(|(other, _)| format!("against {}", other.name));
+        Self {
+            title,
+            verdict: of.verdict.into(),
+            tone,
+            names: std::iter::once(of.signal.name.to_owned()).chain(other).collect(),
+            envelopes: envelopes(of),
+            order_tracked: a.options.rotation.is_some(),
+            markers: markers(a),
+            tables: vec![families(a)],
+            ..Self::default()
+        }
     }
 }
 
-/// Waveforms, spectra and envelopes: the signal's, and beside them those of the one it is compared with.
+/// What is marked in an envelope spectrum.
+pub(super) const LANES: &str = "Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines; short thin marks are the sidebands that were detected.";
+
+fn spectrum_of(s: &Spectrum, label: &str, unit: &Unit, note: &str) -> crate::Spectrum {
+    crate::Spectrum {
+        label: label.into(),
+        df_hz: s.frequency_step,
+        amplitude: s.amplitude.clone(),
+        unit: unit.name.clone(),
+        note: format!("Hann window, lines {} Hz apart, averages: {}.{note}", short(s.frequency_step, 3), s.segments),
+    }
+}
+
+/// The signal's envelope spectrum, and beside it that of the one it is compared with.
+fn envelopes(of: &Findings) -> Vec<crate::Spectrum> {
+    let a = of.signal.analysis;
+    let (low, high, choice) = (a.view.band.low, a.view.band.high, a.view.choice.words());
+    let (all, band) = match &of.against {
+        None => (std::slice::from_ref(&a.view.spectrum), format!(" Band: {low:.0} to {high:.0} Hz ({choice}).")),
+        Some((_, c)) => (&c.envelopes[..], format!(" Both in the band of {low:.0} to {high:.0} Hz.")),
+    };
+    let tracked = match a.options.rotation {
+        Some(_) => format!(" Order tracked: frequencies are orders times the mean speed, {:.3} Hz.", a.shaft),
+        None => String::new(),
+    };
+    all.iter().map(|s| spectrum_of(s, "Envelope amplitude", of.unit, &format!("{band}{tracked}"))).collect()
+}
+
+/// Waveforms and spectra: the signal's, and beside them those of the one it is compared with.
 fn curves(page: &mut AnalysisReport, of: &Findings) {
     let (m, a) = (&of.signal, of.signal.analysis);
     let quantity = of.unit.quantity.words();
@@ -105,41 +144,17 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
         dt_s: 1.0 / m.rate,
         values: m.x[..m.x.len().min(WAVEFORM)].to_vec(),
     };
-    let spectrum = |s: &Spectrum, label: String, note: String| crate::Spectrum {
-        label,
-        df_hz: s.frequency_step,
-        amplitude: s.amplitude.clone(),
-        unit: of.unit.name.clone(),
-        note,
-    };
-    let note =
-        |s: &Spectrum| format!("Hann window, lines {} Hz apart, averages: {}.", short(s.frequency_step, 3), s.segments);
     let (low, high) = (a.view.band.low, a.view.band.high);
     let shaded = format!(" Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).", a.view.choice.words());
-    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines; short thin marks are the sidebands that were detected.";
-    let lanes = match a.options.rotation {
-        Some(_) => format!(" Order tracked: frequencies are orders times the mean speed, {:.3} Hz.{lanes}", a.shaft),
-        None => lanes.to_owned(),
-    };
+    let spectrum = |s: &Spectrum| spectrum_of(s, &format!("{quantity} amplitude"), of.unit, &shaded);
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
-    let (label, of_envelope) = (format!("{quantity} amplitude"), "Envelope amplitude".to_owned());
     match &of.against {
-        None => {
-            // Samples that could be analysed have a spectrum.
-            let shown = shown_spectrum(m.x, m.rate).ok();
-            page.spectra = (shown.iter()).map(|s| spectrum(s, label.clone(), note(s) + &shaded)).collect();
-            let s = &a.view.spectrum;
-            page.envelopes = vec![spectrum(s, of_envelope, note(s) + &lanes)];
-        }
+        // Samples that could be analysed have a spectrum.
+        None => page.spectra = shown_spectrum(m.x, m.rate).iter().map(spectrum).collect(),
         Some((other, c)) => {
-            page.names.push(format!("against {}", other.name));
             page.waveforms.push(series(other));
-            for (s, e) in c.spectra.iter().zip(&c.envelopes) {
-                page.spectra.push(spectrum(s, label.clone(), note(s) + &shaded));
-                let words = format!("{} Both in the band of {low:.0} to {high:.0} Hz.{lanes}", note(e));
-                page.envelopes.push(spectrum(e, of_envelope.clone(), words));
-            }
+            page.spectra = c.spectra.iter().map(spectrum).collect();
         }
     }
 }

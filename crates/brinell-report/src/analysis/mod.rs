@@ -2,6 +2,7 @@
 
 mod content;
 mod curves;
+mod evidence;
 mod level;
 mod page;
 mod waveform;
@@ -13,6 +14,8 @@ use crate::kurtogram::Kurtogram;
 use crate::tables::Table;
 pub(crate) use content::with_interval;
 pub use content::{Analyzed, Findings};
+pub use evidence::Evidence;
+pub(crate) use evidence::weight;
 pub use level::{ZONES, level_lines, scaled};
 pub(crate) use page::envelope_of_size;
 pub(crate) use waveform::close_of_size;

@@ -46,7 +46,7 @@ fn spectrum(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
     Plot { velocity: true, band: report.band_hz, ..plot }
 }
 
-fn envelope(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
+pub(super) fn envelope(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
     envelope_of_size(report, layout.size(if layout.roomy() { 400.0 } else { 360.0 }))
 }
 

@@ -2,7 +2,7 @@
 
 use super::words::rate;
 use super::{CustomerReport, Heading, Judged, NotJudged, Whole};
-use crate::analysis::{AnalysisReport, Findings, scaled, with_interval};
+use crate::analysis::{AnalysisReport, Findings, scaled, weight, with_interval};
 use crate::number::{raised, short};
 use crate::tables::Table;
 use brinell::analysis::{Analysis, Component, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
@@ -242,7 +242,7 @@ impl CustomerReport {
         });
         let whole = most.or(signals.first())?.whole.clone();
         let all = all(&signals, without);
-        let weight = |one: &Judged| (one.score.unwrap_or(f64::NEG_INFINITY), one.verdict == Verdict::CannotTell);
+        let weight = |one: &Judged| weight(one.score, one.verdict);
         let mut lead: Option<Judged> = None;
         for one in signals {
             let ahead = lead.as_ref().is_none_or(|lead| weight(&one) > weight(lead));
