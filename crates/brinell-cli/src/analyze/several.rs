@@ -244,7 +244,7 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
     Page {
         title: title.into(),
         subtitle,
-        lead: leading(args, rows).unwrap_or_default(),
+        lead: leading(args, rows).or(dated.map(Trend::summary)).unwrap_or_default(),
         analysed: true,
         version: MadeBy::now().to_string(),
         warnings: warnings(rows, each).into_iter().chain(dated.into_iter().flat_map(|t| t.warnings.clone())).collect(),

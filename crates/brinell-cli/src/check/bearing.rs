@@ -61,12 +61,12 @@ pub(super) fn stiffnesses(s: &Scenario, d: &Derived) {
     );
     match s.contact.damping {
         ContactDamping::Constant { ns_per_m } => say!(
-            "  damping                 {} N s/m, {} s times their mean; of whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
+            "  damping                 {} N s/m, {} s times their mean; for whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
             plain_number(ns_per_m),
             short(2.0 * ns_per_m / (d.contact_stiffness[0] + d.contact_stiffness[1]), 2)
         ),
         ContactDamping::Time { us } => say!(
-            "  damping                 {} s times the stiffness at hand; of whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
+            "  damping                 {} s times the stiffness at hand; for whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
             short(1e-6 * us, 2)
         ),
     }

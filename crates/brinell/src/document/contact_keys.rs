@@ -112,7 +112,10 @@ fn damping(k: &mut Keys, laws: Laws, c: &mut Contact) {
             .to(1e4)
             .plausible(2.5, 25.0),
         (by_time, "contact.damping_ns_per_m is left out, or by default with the laws \"mechanics\""),
-        assumed(2.5, "the lower end of the 2.5 to 25 us that Kraemer gives for whole bearings: levels may be some 7 dB lower"),
+        assumed(
+            2.5,
+            "the lower end of the 2.5 to 25 us that Kraemer gives for whole bearings: levels may be some 7 dB lower",
+        ),
         &mut us,
     );
     k.key_where(
