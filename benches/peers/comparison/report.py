@@ -132,7 +132,7 @@ def page(peers, programs, problem, cli, args):
 
 def write_results(folder, peers, programs, problem, cli, args):
     (folder / "pictures").mkdir(parents=True, exist_ok=True)
-    (folder / "peers.md").write_text(page(peers, programs, problem, cli, args))
+    (folder / "speed.md").write_text(page(peers, programs, problem, cli, args))
     with (folder / "peers.csv").open("w", newline="") as out:
         table = csv.writer(out, lineterminator="\n")
         errors = [f"error_{c}" for c in CHANNELS]
