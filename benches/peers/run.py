@@ -17,7 +17,7 @@ from comparison.peers import PEERS
 from comparison.problem import Problem
 from comparison.programs import Programs
 from comparison.report import write_results
-from comparison.settings import HERE, ROOT
+from comparison.settings import DEFAULT_LAWS_S, HERE, ROOT
 from comparison.tools import say
 
 
@@ -70,7 +70,8 @@ def main():
             long_run(peer, programs, problem)
     say("the command line")
     cli = command_line(programs)
-    write_results(docs, peers, programs, problem, cli, args)
+    alone = command_line(programs, "--set", f"simulation.duration_s={DEFAULT_LAWS_S:g}", "--no-report", "--signals", "none")
+    write_results(docs, peers, programs, problem, cli, [x / DEFAULT_LAWS_S for x in alone], args)
     print((docs / "speed.md").read_text())
     say(f"written to {os.path.relpath(docs)}")
 
