@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """brinell beside what users write today: installs, checks, runs and plots everything.
 
-    python3 benches/peers/run.py             about twelve minutes; writes docs/peers.md, docs/peers.csv, docs/pictures/work-precision.png
+    python3 benches/peers/run.py             about twelve minutes; writes docs/src/speed.md, docs/src/peers.csv, docs/src/pictures/work-precision.png
     python3 benches/peers/run.py --quick     about two minutes: fewer tolerances, not the slowest solvers; the same files, into the build folder
 
 Needs Python 3.11 or later with venv, Rust, gcc, and for packages that are missing apt-get as root (or through sudo without a
@@ -17,7 +17,7 @@ from comparison.peers import PEERS
 from comparison.problem import Problem
 from comparison.programs import Programs
 from comparison.report import write_results
-from comparison.settings import HERE, ROOT
+from comparison.settings import DEFAULT_LAWS_S, HERE, ROOT
 from comparison.tools import say
 
 
@@ -29,13 +29,13 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=HERE / "build",
                         help="folder for what is built and cached")
     parser.add_argument("--docs", type=pathlib.Path,
-                        help="folder for the results; default: docs/, or the build folder with --quick")
+                        help="folder for the results; default: docs/src/, or the build folder with --quick")
     parser.add_argument("--only", nargs="+", metavar="KEY",
                         help="only these peers (with brinell): " + ", ".join(p.key for p in PEERS))
     args = parser.parse_args()
     build = args.build.resolve()
     build.mkdir(parents=True, exist_ok=True)
-    docs = args.docs or (build / "docs" if args.quick or args.only else ROOT / "docs")
+    docs = args.docs or (build / "docs" if args.quick or args.only else ROOT / "docs/src")
 
     programs = Programs(build, not args.no_install)
     problem = Problem(programs)
@@ -70,8 +70,9 @@ def main():
             long_run(peer, programs, problem)
     say("the command line")
     cli = command_line(programs)
-    write_results(docs, peers, programs, problem, cli, args)
-    print((docs / "peers.md").read_text())
+    alone = command_line(programs, "--set", f"simulation.duration_s={DEFAULT_LAWS_S:g}", "--no-report", "--signals", "none")
+    write_results(docs, peers, programs, problem, cli, [x / DEFAULT_LAWS_S for x in alone], args)
+    print((docs / "speed.md").read_text())
     say(f"written to {os.path.relpath(docs)}")
 
 

@@ -31,5 +31,5 @@ def test_regress_what_a_page_of_python_shows_comes_of_it(command, tmp_path, page
     printed = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, check=True, capture_output=True, text=True).stdout
     assert printed == shown
     # Its places hang on the libraries' versions in the last digit: a point a run is there.
-    shown, drawn = (ROOT / f"docs/pictures/gallery-{picture}.svg").read_text(encoding="utf-8"), (tmp_path / f"{picture}.svg").read_text(encoding="utf-8")
+    shown, drawn = (ROOT / f"docs/src/pictures/gallery-{picture}.svg").read_text(encoding="utf-8"), (tmp_path / f"{picture}.svg").read_text(encoding="utf-8")
     assert shown.count("<use ") == drawn.count("<use ") > points

@@ -3,7 +3,8 @@
 
     python3 validation/predictions/predict.py target/release/brinell docs/src/predictions
 
-Needs NumPy. Writes adelaide.csv, saarland.csv and table.md into the folder. Runs go to a temporary folder; some four minutes of CPU.
+Needs NumPy. Writes adelaide.csv and saarland.csv into the folder, and the tables into the page beside it of the folder's name, between its marks
+(else table.md into the folder). Runs go to a temporary folder; some four minutes of CPU.
 
 Adelaide (an N-type cylindrical roller bearing; outer race, 110 um deep, edges of 5 to 90 degrees) has no bearing number in what could be read: an N208 stands for it,
 the damage is 8 mm long and as wide as the roller. Saarland's is the NU206 of the catalogue, with damage of the inner raceway of 2 x 3 mm; its depth, 100 um, is assumed.
@@ -29,6 +30,9 @@ TURNS = 12.0
 RAMP_S = 0.02
 # Diameter of the N208's outer raceway.
 OUTER_MM = 71.5
+# The page holds the tables between these.
+BEGIN = "<!-- Written by validation/predictions/predict.py; edits are lost. -->"
+END = "<!-- End of what is written. -->"
 
 SCENARIO = """name = "{name}"
 [bearing]
@@ -156,7 +160,7 @@ def of(row, name):
 def tables(adelaides, saarlands, spreads):
     """The tables of the page."""
     at = {(row["edge_deg"], row["speed_hz"], row["load_n"]): row for row in adelaides}
-    lines = ["<!-- Written by validation/predictions/predict.py; edits are lost. -->", ""]
+    lines = [BEGIN, ""]
     lines += ["### Edges, at 10 Hz and 5 kN", "", "| edge | entry to exit, ms | displacement, um | peak after exit over after entry | RMS, m/s^2 | RMS over that of 90 degrees |", "| --- | --- | --- | --- | --- | --- |"]
     upright = at[BASE]["rms_m_per_s2"]
     for edge in EDGES_DEG:
@@ -176,7 +180,14 @@ def tables(adelaides, saarlands, spreads):
     for case, spread in spreads.items():
         level = next(one for one in spread["levels"] if one["name"] == "sensor_ay.rms")
         lines.append(f"| {case} | `{level['name']}`, m/s^2 | {short(level['value'])} | {short(level['low'])} to {short(level['high'])} | `{level['by'][0]['key']}` |")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", END])
+
+
+def within(page, text):
+    """A page with the text in the place of the one that it has between its marks."""
+    before, rest = page.split(BEGIN)
+    _, after = rest.split(END)
+    return before + text + after
 
 
 def main(brinell, folder):
@@ -206,7 +217,11 @@ def main(brinell, folder):
                 print(row, flush=True)
     write(folder / "adelaide.csv", adelaides)
     write(folder / "saarland.csv", saarlands)
-    (folder / "table.md").write_text(tables(adelaides, saarlands, spreads))
+    text, page = tables(adelaides, saarlands, spreads), folder.with_suffix(".md")
+    if page.is_file():
+        page.write_text(within(page.read_text(), text))
+    else:
+        (folder / "table.md").write_text(text + "\n")
 
 
 if __name__ == "__main__":

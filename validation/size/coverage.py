@@ -3,7 +3,7 @@
     python3 validation/size/coverage.py BRINELL FOLDER [--runs 400] [--seed 4] [--jobs N] [--set known|new]
 
 Draws runs over bearing, surface, speed, load, length, outline (rectangle, ragged, scan), depth, way to the sensor, noise and sample rate; makes them in FOLDER, where finished ones stay;
-analyses each by bearing name and speed alone; and prints the tables of the book (docs/src/results/size-table.md). `known` are the bearings that the method's constants were set on, `new` others.
+analyses each by bearing name and speed alone; and prints the tables of the book (docs/src/results/analyze-size.md). `known` are the bearings that the method's constants were set on, `new` others.
 Seed 4 and the new bearings are the book's. 400 runs take some fifteen minutes of CPU. Needs NumPy and SciPy.
 """
 

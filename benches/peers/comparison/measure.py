@@ -100,12 +100,12 @@ def long_run(peer, programs, problem):
             say(f"{peer.name} over {LONG_S:g} s: {peer.matched['long']:.3g} s of CPU a simulated second")
 
 
-def command_line(programs):
-    """The whole command on the whole scenario, files and report included: the best of three."""
+def command_line(programs, *options):
+    """The whole command on the whole scenario, under the default laws, with what `options` say: the best of three."""
     best = None
     for _ in range(3):
         before, started = os.times(), time.perf_counter()
-        capture([programs.cli, "run", SCENARIO, "-o", programs.build / "cli", "-q"])
+        capture([programs.cli, "run", SCENARIO, "-o", programs.build / "cli", "-q", "--overwrite", *options])
         wall, after = time.perf_counter() - started, os.times()
         cpu = after.children_user + after.children_system - before.children_user - before.children_system
         best = (cpu, wall) if best is None or cpu < best[0] else best

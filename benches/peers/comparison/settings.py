@@ -17,3 +17,5 @@ REFERENCE_STEP = 1e-8
 LENGTH, SPEED, RTOL = 1.0, 1e3, 0.0
 TIME_LIMIT_S = 400.0
 LONG_S = 0.2
+# Of the command under brinell's default laws, without files.
+DEFAULT_LAWS_S = 2.5

@@ -53,7 +53,7 @@ impl Change {
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Same => "same",
-            Self::TurnsOver => "turns over",
+            Self::TurnsOver => "reversed",
             Self::Changes => "changes",
             Self::NotDecided => "not decided",
             Self::Missing => "not computed",

@@ -6,12 +6,23 @@ use brinell_report::{Chapter, Page, Piece, Table};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// The text. Pictures are linked as from the folder above `book`, where the file that includes this one is.
+/// How the text's first line begins, and its last line: a page that has both holds it between them.
+const BEGIN: &str = "<!-- Written by `brinell reproduce";
+const END: &str = "<!-- End of what is written. -->\n";
+
+/// A page with the text in the place of the one that it holds; `None` of a page that holds none.
+pub(crate) fn within(page: &str, text: &str) -> Option<String> {
+    let (before, rest) = page.split_once(BEGIN)?;
+    let (_, after) = rest.split_once(END)?;
+    Some(format!("{before}{text}{after}"))
+}
+
+/// The text. Pictures are linked as from the folder above `book`, where the page that holds it is.
 pub(crate) fn text(study: &Page, reproduction: &Reproduction, book: &Path) -> String {
     let folder = book.file_name().map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
     let beside = reproduction.beside.is_some();
     let laws = if beside { " --laws mechanics" } else { "" };
-    let mut text = format!("<!-- Written by `brinell reproduce{laws} --book`; edits are lost. -->\n\n");
+    let mut text = format!("{BEGIN}{laws} --book`; edits are lost. -->\n\n");
     let counts: Vec<String> =
         counts(&reproduction.outcomes).iter().map(|(verdict, n)| format!("{} {n}", verdict.words())).collect();
     let rest = not_counted(&reproduction.outcomes);
@@ -54,6 +65,7 @@ pub(crate) fn text(study: &Page, reproduction: &Reproduction, book: &Path) -> St
             }
         }
     }
+    text.push_str(END);
     text
 }
 
@@ -111,7 +123,7 @@ fn table(text: &mut String, table: &Table) {
 
 #[cfg(test)]
 mod tests {
-    use super::{cell, table};
+    use super::{cell, table, within};
     use crate::figures::figures;
     use crate::sensitivity::{intro, ranges};
     use crate::{BASE, EXPERIMENTS, Length, Request, VARIANTS, claims, page};
@@ -121,7 +133,7 @@ mod tests {
     /// The book's chapter; `None` where the book is not beside the crate.
     fn chapter() -> Option<String> {
         let book = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src");
-        book.is_dir().then(|| std::fs::read_to_string(book.join("reproduction/reproduction.md")).unwrap())
+        book.is_dir().then(|| std::fs::read_to_string(book.join("reproduction.md")).unwrap())
     }
 
     fn written(one: &Table) -> String {
@@ -145,6 +157,15 @@ mod tests {
             all.push(format!("\n| {k} | {} | {} | ", cell(variant.about), cell(variant.words)));
         }
         all
+    }
+
+    #[test]
+    fn prop_a_page_takes_the_text_between_its_marks() {
+        let page = "# Title\n\n<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\nold\n\n<!-- End of what is written. -->\n\n## More\n";
+        assert_eq!(within(page, "new\n").as_deref(), Some("# Title\n\nnew\n\n## More\n"));
+        assert_eq!(within("# Title\n", "new\n"), None);
+        // The book's own has marks.
+        assert!(chapter().is_none_or(|page| within(&page, "").is_some()));
     }
 
     #[test]

@@ -58,7 +58,7 @@ const MECHANICS: [&str; 3] = [
     "Default values: the same cases with nothing set but the laws. Then the outer ring carries a housing of 20 times its mass, supports are damped by a \
      tenth of critical, and the cage is guided by its rollers, without a film. Each case has one start.",
     "The verdicts under li2023 are those of the whole reproduction, kept with the program. Sentences that no number decides, and those that find again \
-     what goes in, as contact by effective length does under the paper’s laws, are left out. A verdict turns over where what held does not, or the other \
+     what goes in, as contact by effective length does under the paper’s laws, are left out. A verdict is reversed where what held does not, or the other \
      way round; it is not decided where intervals include both.",
 ];
 

@@ -85,7 +85,7 @@ mod tests {
         let again = "copy docs/src/reproduction/verdicts.json, which the whole reproduction writes";
         let read = |name: &str| std::fs::read_to_string(book.join(name)).unwrap();
         assert_eq!(read("verdicts.json"), include_str!("verdicts.json"), "{again}");
-        let chapter = read("reproduction.md");
+        let chapter = read("../reproduction.md");
         for statement in UNDER_LI2023.iter().flat_map(|kept| &kept.statements) {
             let RecordedStatement { statement, verdict, ours } = statement;
             let words = format!("{statement} — {verdict}: {ours}").replace('|', "\\|");

@@ -47,7 +47,7 @@ impl Facts<'_> {
         self.0.iter().find(|joined| joined.claim.id == id)
     }
 
-    /// "it turns over and does not hold (li2023: holds; with default values: holds in part)".
+    /// "it is reversed and does not hold (li2023: holds; with default values: holds in part)".
     fn verdict(&self, id: &str) -> Option<String> {
         let Joined { paper, own, defaults, .. } = self.joined(id)?;
         Some(changed(&paper.verdict, &own.verdict, &defaults.verdict))
@@ -228,7 +228,7 @@ fn changed(paper: &str, own: &str, defaults: &str) -> String {
     let own_words = decided(own);
     match Change::between(paper, own) {
         Change::Same => format!("{own_words}, as under li2023{more}"),
-        Change::TurnsOver => format!("it turns over and {own_words} (li2023: {paper}{more})"),
+        Change::TurnsOver => format!("it is reversed and {own_words} (li2023: {paper}{more})"),
         Change::Changes | Change::NotDecided => format!("{own_words} (li2023: {}{more})", decided(paper)),
         Change::Missing => "not computed".into(),
     }
@@ -268,7 +268,7 @@ mod tests {
             "{}",
             sentences[0]
         );
-        assert!(sentences[0].ends_with("it turns over and does not hold (li2023: holds)."), "{}", sentences[0]);
+        assert!(sentences[0].ends_with("it is reversed and does not hold (li2023: holds)."), "{}", sentences[0]);
         assert!(Facts(&[]).sentences().is_empty());
         assert_eq!(interval("18.5 [18.3, 18.7]"), Some((18.3, 18.7)));
         assert_eq!(interval("18.5"), None);

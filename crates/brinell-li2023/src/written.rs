@@ -49,18 +49,25 @@ impl Reproduction {
         Ok(written)
     }
 
-    /// Writes into the folder `book` the book's chapter: `reproduction.md` with its pictures and, of the whole, the
-    /// verdicts as they are kept, `verdicts.json`; under other laws than the paper's `survives.md`.
+    /// Writes the text of the book's chapter, `reproduction.md`, or of `survives.md` under other laws than the paper's:
+    /// into the page of that name in the folder above `book`, in place of the text that it holds, and into `book` where
+    /// there is no such page. Pictures and, of the whole, the verdicts as they are kept, `verdicts.json`, go to `book`.
     ///
     /// # Errors
     /// Where the folder cannot be made or a file cannot be written.
     pub fn write_book(&self, study: &Page, pictures: &[Picture], book: &Path) -> Result<Vec<PathBuf>, Error> {
         make_folder(book)?;
         let text = book::text(study, self, book);
+        let name = if self.beside.is_some() { "survives.md" } else { "reproduction.md" };
+        let above = book.parent().unwrap_or(book);
+        let page = std::fs::read_to_string(above.join(name)).ok().and_then(|page| book::within(&page, &text));
+        let mut written = vec![match page {
+            Some(page) => put(above, name, &page)?,
+            None => put(book, name, &text)?,
+        }];
         if self.beside.is_some() {
-            return Ok(vec![put(book, "survives.md", &text)?]);
+            return Ok(written);
         }
-        let mut written = vec![put(book, "reproduction.md", &text)?];
         if self.request.whole {
             let all: Vec<Recorded> = self.outcomes.iter().map(Recorded::of).collect();
             written.push(put(book, "verdicts.json", &recorded::text(&all))?);

@@ -66,7 +66,7 @@ const OUTLINES: &str = "seen from above: the later, the darker. s counts from th
 
 const SIZE: &str = "The true length along the rolling direction, and what brinell analyze --size tells of each snapshot's signal, given the bearing and the speed alone, without a machine's noise. A cross: no length is told.";
 
-/// By the book's table of the length (docs/src/results/size-table.md).
+/// By the book's table of the length (docs/src/results/analyze-size.md).
 const COVERAGE: &str = "On 400 other signals that brinell made, 88 lengths were told and 95 % of the intervals held the true one (89 to 99 %); of ragged outlines and scans \
     24 of 26, 92 % (75 to 99 %).";
 

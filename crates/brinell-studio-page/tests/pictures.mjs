@@ -4,7 +4,7 @@ import { join, resolve } from "node:path";
 import { launch, open, running, serve } from "./browser.js";
 import { drag, settled, start, until } from "./page.js";
 
-const FOLDER = resolve(process.argv[2] ?? join(import.meta.dirname, "../../../docs/pictures"));
+const FOLDER = resolve(process.argv[2] ?? join(import.meta.dirname, "../../../docs/src/pictures"));
 const PICTURES = [
     { name: "studio.png", options: { width: 1400, height: 900, colorScheme: "light" }, from: 0.56, to: 0.6 },
     {

@@ -1,7 +1,7 @@
 //! Scenarios and console examples in the text, tried on the program.
 //!
-//! A block of `toml` is a whole scenario (lines that begin with `~` are hidden from the reader): `brinell check` has to
-//! find it sound; one of `toml own.toml` is that file for the commands that follow. In a block of `console` each line
+//! A block of `toml` is a whole scenario, unless it is a file that the page shows (`shown`): `brinell check` has to find
+//! it sound; one of `toml own.toml` is that file for the commands that follow. In a block of `console` each line
 //! after `$ ` is run by the shell in a folder that holds a copy of `examples/`, and has to succeed; what follows it is
 //! what it prints. In a line of that `[..]` stands for anything, a line of `...` for any lines.
 //!
@@ -9,6 +9,7 @@
 //! they wrote, byte for byte (`pictures`).
 
 use crate::pictures::Pictures;
+use crate::shown::is_mark;
 use crate::{copy, fail};
 use mdbook_driver::errors::Result;
 use std::fs;
@@ -58,7 +59,7 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path, only: &str, renewed: bool
     let mut problems = Vec::new();
     let mut sources = Vec::new();
     gather(&docs.join("src"), &mut sources)?;
-    sources.extend([docs.join("peers.md"), docs.join("../README.md")]);
+    sources.push(docs.join("../README.md"));
     sources.retain(|source| source.to_string_lossy().contains(only));
     let mut pictures = Pictures::new(folder, docs.join("..").canonicalize()?, renewed);
     for source in sources {
@@ -67,11 +68,9 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path, only: &str, renewed: bool
         for (kind, block) in blocks(&text) {
             let (kind, file) = kind.split_once(' ').unwrap_or((kind.as_str(), FILE));
             match kind {
-                "toml" if block.contains("{{#include") => {}
                 "toml" => {
                     held.scenarios += 1;
-                    let text: Vec<&str> = block.lines().map(|l| l.strip_prefix('~').unwrap_or(l)).collect();
-                    fs::write(folder.join(file), text.join("\n"))?;
+                    fs::write(folder.join(file), &block)?;
                     let output = run(&format!("brinell check {file}"))?;
                     if !output.status.success() {
                         problems.push(format!("{name}:\n{block}\n{}", String::from_utf8_lossy(&output.stdout)));
@@ -103,7 +102,8 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path, only: &str, renewed: bool
     Ok(held)
 }
 
-fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
+/// Pages of a folder and its folders, in order.
+pub fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
     let mut entries: Vec<PathBuf> =
         fs::read_dir(folder)?.map(|e| e.map(|e| e.path())).collect::<std::io::Result<_>>()?;
     entries.sort();
@@ -117,14 +117,17 @@ fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// Fenced blocks with what is behind their fence.
+/// Fenced blocks with what is behind their fence, but for files that a page shows.
 fn blocks(text: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let mut open: Option<(String, String)> = None;
+    let mut of_file = false;
     for line in text.lines() {
         match (line.strip_prefix("```"), &mut open) {
             (Some(kind), None) => open = Some((kind.trim().to_owned(), String::new())),
+            (Some(_), Some(_)) if of_file => (open, of_file) = (None, false),
             (Some(_), Some(_)) => found.extend(open.take()),
+            (None, None) if is_mark(line) => of_file = true,
             (None, Some((_, block))) => {
                 block.push_str(line);
                 block.push('\n');

@@ -4,7 +4,7 @@
 //!
 //! writes `target/book/index.html`. LaTeX becomes MathML here, so that the pages need no network and no script to show
 //! equations. The build fails on a formula that does not parse, on an equation of the paper that is missing or appears
-//! twice, and on a link that leads nowhere. Where the variable BRINELL names a `brinell` command, every scenario in the
+//! twice, on a link that leads nowhere, and where a page does not show a file as it is. Where the variable BRINELL names a `brinell` command, every scenario in the
 //! text is checked by it, every console example is run and compared, and every picture held against what its page's
 //! commands write; with the word `renew` behind `--` those that differ are replaced. `renew gallery/photo` takes the
 //! pages whose path contains that alone.
@@ -13,6 +13,7 @@ mod examples;
 mod links;
 mod math;
 mod pictures;
+mod shown;
 
 use mdbook_driver::MDBook;
 use mdbook_driver::errors::{Error, Result};
@@ -27,6 +28,7 @@ fn main() -> Result<()> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let renewed = words.iter().any(|word| word == "renew");
     let only = words.iter().find(|word| *word != "renew").map_or("", String::as_str);
+    shown::check(&docs, only, renewed)?;
     // First, so that pages with new pictures have them.
     if renewed {
         try_examples(&docs, only, renewed)?;
@@ -35,12 +37,6 @@ fn main() -> Result<()> {
     let out = book.build_dir_for("html");
     book.with_preprocessor(math::Equations);
     book.build()?;
-    // What included files point at.
-    for name in ["peers.csv", "pictures", "reproduction"] {
-        if docs.join(name).exists() {
-            copy(&docs.join(name), &out.join(name))?;
-        }
-    }
     let out = out.canonicalize()?;
     let pages = links::check(&out)?;
     println!("{pages} pages, no broken link: {}", out.join("index.html").display());

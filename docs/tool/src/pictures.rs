@@ -10,6 +10,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Of the book's pictures, from the root of the repository.
+const FOLDER: &str = "docs/src/pictures";
+
 pub struct Pictures<'a> {
     /// Where the page's commands ran.
     folder: &'a Path,
@@ -31,7 +34,7 @@ impl<'a> Pictures<'a> {
     pub fn of(&mut self, name: &str, text: &str) -> Result<Vec<String>> {
         let mut problems = Vec::new();
         for (file, title) in links(text) {
-            let path = self.root.join("docs/pictures").join(file.rsplit('/').next().unwrap_or(file));
+            let path = self.root.join(FOLDER).join(file.rsplit('/').next().unwrap_or(file));
             let Some(made) = title else {
                 problems.push(format!("{name}: {file} has no title that says what makes it: ![..](FILE \"out/..\")"));
                 continue;
@@ -76,13 +79,13 @@ impl<'a> Pictures<'a> {
 
     /// Pictures that no page shows.
     pub fn unused(&self) -> Result<Vec<String>> {
-        let all = fs::read_dir(self.root.join("docs/pictures"))?.map(|e| Ok(e?.path())).collect::<Result<Vec<_>>>()?;
+        let all = fs::read_dir(self.root.join(FOLDER))?.map(|e| Ok(e?.path())).collect::<Result<Vec<_>>>()?;
         let spare = all.into_iter().filter(|path| !self.shown.contains(path));
         Ok(spare.map(|path| format!("{}: no page shows it", path.display())).collect())
     }
 }
 
-/// Files and titles of the pictures of a text that lie in a folder `pictures`, which is `docs/pictures`.
+/// Files and titles of the pictures of a text that lie in a folder `pictures`, which is that of the book.
 fn links(text: &str) -> Vec<(&str, Option<&str>)> {
     let mut found = Vec::new();
     for (start, _) in text.match_indices("![") {

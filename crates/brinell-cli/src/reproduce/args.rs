@@ -60,8 +60,8 @@ pub(crate) struct ReproduceArgs {
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
-    /// Also write reproduction.md and its pictures (SVG), with --laws mechanics survives.md, into this folder; the file is
-    /// meant to be included from the folder above
+    /// Also write reproduction.md and its pictures (SVG), with --laws mechanics survives.md, into this folder; a page of
+    /// that name in the folder above that holds the text already takes it instead
     #[arg(long, value_name = "FOLDER")]
     pub(crate) book: Option<PathBuf>,
     /// Print the numbers of claims.json as JSON instead of text
