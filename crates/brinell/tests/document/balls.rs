@@ -26,6 +26,28 @@ shape = { circle = { diameter_mm = 0.5 } }
 ";
 
 #[test]
+fn analytic_grooves_lie_a_ball_apart_about_the_pitch_circle() {
+    // As sheets of ball bearings have it: pitch circle, balls and their number.
+    let circle = BARE
+        .replace("inner_raceway_diameter_mm = 31.1\nouter_raceway_diameter_mm = 46.98", "pitch_diameter_mm = 39.04");
+    let [whole, of_circle] = [BARE, &circle].map(|text| read(text, &[]).unwrap_or_else(|p| panic!("{}", report(&p))));
+    let [whole, of_circle] = [whole, of_circle].map(|loaded| loaded.scenario.bearing);
+    for (a, b) in [
+        (whole.inner_raceway_diameter_mm, of_circle.inner_raceway_diameter_mm),
+        (whole.outer_raceway_diameter_mm, of_circle.outer_raceway_diameter_mm),
+        (whole.pitch_diameter_mm, of_circle.pitch_diameter_mm),
+    ] {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+    // One of the two does not tell them.
+    let alone = circle.replace("pitch_diameter_mm = 39.04\n", "");
+    refused(&alone, &[], "bearing.inner_raceway_diameter_mm", "missing");
+    // Beside a name they are the name's, and the message says what to do.
+    let named = circle.replace("element = \"ball\"", "preset = \"6205\"").replace("39.04", "38.5");
+    refused(&named, &[], "bearing.pitch_diameter_mm", "give both, as D_m - d and D_m + d");
+}
+
+#[test]
 fn regress_defaults_of_balls() {
     let loaded = with(BARE, &[LI2023, ("simulation.geometry", "exact")]).unwrap();
     let s = &loaded.scenario;
