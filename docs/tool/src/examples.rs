@@ -9,11 +9,11 @@
 //! they wrote, byte for byte (`pictures`).
 
 use crate::pictures::Pictures;
-use crate::shown::is_mark;
+use crate::shown::{gather, is_mark};
 use crate::{copy, fail};
 use mdbook_driver::errors::Result;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -100,21 +100,6 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path, only: &str, renewed: bool
     fail("examples that do not hold", &problems)?;
     held.pictures = pictures.same;
     Ok(held)
-}
-
-/// Pages of a folder and its folders, in order.
-pub fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
-    let mut entries: Vec<PathBuf> =
-        fs::read_dir(folder)?.map(|e| e.map(|e| e.path())).collect::<std::io::Result<_>>()?;
-    entries.sort();
-    for path in entries {
-        if path.is_dir() {
-            gather(&path, sources)?;
-        } else if path.extension().is_some_and(|e| e == "md") {
-            sources.push(path);
-        }
-    }
-    Ok(())
 }
 
 /// Fenced blocks with what is behind their fence, but for files that a page shows.

@@ -7,7 +7,7 @@
 use crate::fail;
 use mdbook_driver::errors::Result;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 const BEGIN: &str = "<!-- shows ";
 const FENCE: &str = "```";
@@ -15,7 +15,7 @@ const FENCE: &str = "```";
 /// Holds every page below `docs/src` whose path contains `only` against the files that it shows.
 pub fn check(docs: &Path, only: &str, renewed: bool) -> Result<()> {
     let mut pages = Vec::new();
-    crate::examples::gather(&docs.join("src"), &mut pages)?;
+    gather(&docs.join("src"), &mut pages)?;
     pages.retain(|page| page.to_string_lossy().contains(only));
     let mut problems = Vec::new();
     for page in pages {
@@ -44,6 +44,21 @@ pub fn check(docs: &Path, only: &str, renewed: bool) -> Result<()> {
     fail("files that pages show", &problems)
 }
 
+/// Pages of a folder and its folders, in order.
+pub fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder)?.map(|e| e.map(|e| e.path())).collect::<std::io::Result<_>>()?;
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            gather(&path, sources)?;
+        } else if path.extension().is_some_and(|e| e == "md") {
+            sources.push(path);
+        }
+    }
+    Ok(())
+}
+
 /// Whether a line says that the next block is a file's.
 pub fn is_mark(line: &str) -> bool {
     line.starts_with(BEGIN)
@@ -59,7 +74,7 @@ fn with_files(text: &str, root: &Path) -> std::result::Result<String, String> {
             continue;
         }
         let words: Vec<&str> = line.split_whitespace().collect();
-        let (file, first) = match words[..] {
+        let (file, first): (&str, usize) = match words[..] {
             ["<!--", "shows", file, "-->"] => (file, 1),
             ["<!--", "shows", file, "from", "line", first, "-->"] => (file, first.parse().unwrap_or(1)),
             _ => return Err(format!("{}: expected FILE or FILE from line N", line.trim_end())),
@@ -69,7 +84,7 @@ fn with_files(text: &str, root: &Path) -> std::result::Result<String, String> {
             return Err(format!("no block behind {}", line.trim_end()));
         };
         out.push_str(open);
-        shown.lines().skip(first - 1).for_each(|line| out.extend([line, "\n"]));
+        shown.lines().skip(first.saturating_sub(1)).for_each(|line| out.extend([line, "\n"]));
         let close =
             lines.find(|line| line.starts_with(FENCE)).ok_or_else(|| format!("{file}: the block has no end"))?;
         out.push_str(close);
