@@ -247,7 +247,7 @@ pub fn passes(passes: Vec<Pass>) -> Chapter {
             false => pieces.push(Piece::Figure(figure.unseen())),
         }
     }
-    let words = "Effective contact length, contact stiffness and contact force of one rolling element over its angle from the defect’s centre.";
+    let words = "Effective contact length, contact stiffness and contact force of one rolling element over its angle from the defect’s centre. On a half-space the effective length is that of a healthy roller which would carry the same force at the same deformation: more than what the damage leaves.";
     pieces.push(Piece::Note(words.into()));
     pieces.extend(undrawn(count, "passes"));
     chapter(pieces)
