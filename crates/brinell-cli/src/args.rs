@@ -176,7 +176,7 @@ pub(crate) struct FrequenciesArgs {
 #[derive(Debug, Clone, Args)]
 pub(crate) struct Elements {
     /// Rolling elements in a row
-    #[arg(long, value_name = "Z", value_parser = rollers, conflicts_with = "bearing")]
+    #[arg(long, alias = "balls", value_name = "Z", value_parser = rollers, conflicts_with = "bearing")]
     pub(crate) rollers: Option<usize>,
     /// Pitch diameter
     #[arg(

@@ -20,7 +20,7 @@ fn regress_each_bearing_is_judged_by_itself() {
     let both = ["--bearing", "6203-2RS", "--bearing", "6205-2RS", "-o", "look"];
     brinell(folder.path(), &[&SIGNAL[..], &both].concat()).exits(0).says(&[
         "Bearing 1 of 2, 6203-2RS: The lines at 107.",
-        "Hz are 6205-2RS's, whose BPFO is called damage: one sensor records both. Cannot tell: the deepest comb of lines lies at 107.",
+        "Hz are 6205-2RS's, whose BPFO is called damage: one sensor records both, and of this bearing they say nothing. Cannot tell: the deepest comb of lines lies at 107.",
         "Bearing 2 of 2, 6205-2RS: Outer race damage, clear: BPFO at 107.",
     ]);
     let found = json(&folder.path().join("look/analysis.json"));

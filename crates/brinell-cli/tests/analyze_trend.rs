@@ -37,7 +37,7 @@ fn regress_dated_records_have_a_trend_on_the_terminal_in_files_and_on_a_page() {
     ]);
     let line = |name: &str| done.out.lines().find(|l| l.starts_with(&format!("{name} "))).unwrap().to_owned();
     assert!(line("peak").contains("grows from 2024-03-1"), "{}", done.out);
-    assert!(line("score_cage").contains("no change found (p = "), "{}", done.out);
+    assert!(line("score_cage").contains("or less is needed)"), "{}", done.out);
 
     let all = json(&folder.path().join("all.json"));
     let trend = &all["trend"];

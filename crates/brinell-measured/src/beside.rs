@@ -77,7 +77,7 @@ fn beside(results: &[Diagnosis], k: usize, lead: Option<usize>) -> Option<String
                 let is_theirs = (hz / first.frequency - 1.0).abs() <= this.analysis.options.tolerance;
                 let are = if is_theirs { "are" } else { "may be" };
                 Some(format!(
-                    "The lines at {hz:.2} Hz {are} {name}'s, whose {} is called damage: one sensor records both.",
+                    "The lines at {hz:.2} Hz {are} {name}'s, whose {} is called damage: one sensor records both, and of this bearing they say nothing.",
                     first.name
                 ))
             }

@@ -14,7 +14,7 @@ pub(crate) struct SignalArgs {
     /// Sample rate
     #[arg(
         long,
-        alias = "sample-rate",
+        aliases = ["sample-rate", "fs"],
         value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
         value_name = "HZ"
     )]

@@ -193,13 +193,19 @@ impl Followed {
         if self.level.by_factors { y.exp() } else { y }
     }
 
-    /// The last value over the first, of a level that grows by factors, where the 95 % interval of their difference leaves out
-    /// none.
-    pub fn last_over_first(&self) -> Option<f64> {
-        let course = &self.course;
-        let (&[first, .., last], &[a, .., b]) = (&course.y[..], &course.s[..]) else { return None };
-        let known = self.level.by_factors && a > 0.0 && b > 0.0;
-        (known && (last - first).abs() > NORMAL * a.hypot(b)).then(|| (last - first).exp())
+    /// How many of the last values are all above, or all below, as many of the first: a third of them.
+    pub fn last_beyond_first(&self) -> Option<(usize, bool)> {
+        let y = &self.course.y;
+        let third = y.len() / 3;
+        let (first, last) = (y.get(..third)?, y.get(y.len() - third..)?);
+        let ends = |of: &[f64]| of.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |e, y| (e.0.min(*y), e.1.max(*y)));
+        let (first, last) = (ends(first), ends(last));
+        match (last.0 > first.1, last.1 < first.0) {
+            _ if third < 2 => None,
+            (true, _) => Some((third, true)),
+            (_, true) => Some((third, false)),
+            _ => None,
+        }
     }
 
     /// Doubling time of growth by factors with its interval, in the unit of time; negative where it halves.

@@ -20,10 +20,10 @@ impl Trend {
         }
         if outcome.changes.is_empty() {
             let p = format!("p = {}, {} or less is needed", short(outcome.p, 2), short(self.alpha, 2));
-            return match of.last_over_first() {
-                Some(ratio) => format!(
-                    "{} times the first, not shown to be more than scatter among {} records ({p})",
-                    short(ratio, 2),
+            return match of.last_beyond_first() {
+                Some((third, above)) => format!(
+                    "the last {third} are all {} the first {third}, not shown to be more than scatter among {} records ({p})",
+                    if above { "above" } else { "below" },
                     of.course.t.len()
                 ),
                 None => format!("no change found ({p})"),
@@ -53,6 +53,15 @@ impl Trend {
         let mut sentences: Vec<String> = parts.iter().map(called).collect();
         if parts.is_empty() {
             sentences.push(format!("Damage is called in none of {judged} records."));
+        }
+        for (of, limit) in self.levels.iter().flat_map(|of| of.limits.iter().map(move |limit| (of, limit))) {
+            if limit.sides.iter().rev().flatten().next().is_some_and(|side| side.is_above()) {
+                let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
+                sentences.insert(
+                    0,
+                    format!("The latest record is above the limit of {}, {}{unit}.", of.level.called(), limit.text()),
+                );
+            }
         }
         let changes = |of: &&Followed| of.outcome.as_ref().is_some_and(|outcome| !outcome.changes.is_empty());
         let tested = self.levels.iter().any(|of| of.outcome.is_some());

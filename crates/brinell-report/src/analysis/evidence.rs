@@ -13,7 +13,7 @@ use crate::layout::Layout;
 use crate::markup::escape;
 use crate::page::{Figure, Folded, Piece};
 use crate::tables::Table;
-use brinell::analysis::Verdict;
+use brinell::analysis::{Finding, Verdict};
 
 /// Lines that an envelope spectrum keeps for zooming.
 const KEPT: usize = 4096;
@@ -28,6 +28,8 @@ pub(crate) fn weight(score: Option<f64>, verdict: Verdict) -> (f64, bool) {
 pub struct Evidence {
     report: Arc<AnalysisReport>,
     weight: (f64, bool),
+    /// The highest score of lines that are present, damage or not.
+    present: f64,
 }
 
 impl Evidence {
@@ -35,7 +37,12 @@ impl Evidence {
     pub fn of(findings: &Findings) -> Self {
         let a = findings.signal.analysis;
         let score = a.causes().map(|family| family.score).max_by(f64::total_cmp);
-        Self { report: Arc::new(AnalysisReport::evidence(findings)), weight: weight(score, a.conclusion()) }
+        let present = a.families.iter().filter(|family| family.finding != Finding::Silent);
+        Self {
+            report: Arc::new(AnalysisReport::evidence(findings)),
+            weight: weight(score, a.conclusion()),
+            present: present.map(|family| family.score).fold(0.0, f64::max),
+        }
     }
 
     /// Whether its verdict is good, bad or neither.
@@ -43,10 +50,10 @@ impl Evidence {
         self.report.tone
     }
 
-    /// Damage before what cannot be told before what has none, the highest score first.
+    /// Damage before what cannot be told before what has none, the highest score first, and then what has lines.
     pub fn before(&self, other: &Self) -> Ordering {
         let ((a, a_open), (b, b_open)) = (self.weight, other.weight);
-        b.total_cmp(&a).then(b_open.cmp(&a_open))
+        b.total_cmp(&a).then(b_open.cmp(&a_open)).then(other.present.total_cmp(&self.present))
     }
 
     /// How all of them are read.

@@ -14,6 +14,7 @@ use crate::layout::Layout;
 use crate::markup::escape;
 use crate::page::{Chapter, Figure, Page, Piece};
 use crate::plots::{marker_lanes, spectrum_spec};
+use crate::tables::Table;
 
 fn end(spectra: &[Spectrum]) -> f64 {
     (spectra.iter()).map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64).fold(0.0, f64::max)
@@ -72,20 +73,24 @@ impl From<AnalysisReport> for Page {
         let plot = |id, spectra: &[Spectrum], draw| Piece::Figure(Figure::plot(id, note(spectra), &r, draw));
         let mut chapters = vec![
             Chapter::new("verdict", "Verdict", "Verdict", verdict),
-            Chapter::new("waveform", "Waveform", "Waveform", waveform),
-            Chapter::of("spectrum", "Spectrum", plot("spectrum", &r.spectra, spectrum)),
+            // What the verdict rests on, before what else the signal shows.
+            Chapter::of("envelope", "Envelope spectrum", plot("envelope", &r.envelopes, envelope)),
         ];
+        let table = |table: Table| {
+            let id = format!("table-{}", table.title.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "-"));
+            let short = table.title.clone();
+            Chapter::table(&id, &short, table)
+        };
+        let mut tables = tables.into_iter().map(table);
+        chapters.extend(tables.next());
+        chapters.push(Chapter::new("waveform", "Waveform", "Waveform", waveform));
+        chapters.push(Chapter::of("spectrum", "Spectrum", plot("spectrum", &r.spectra, spectrum)));
         if let Some(map) = r.kurtogram.clone() {
             let caption = escape(&map.note);
             let map = Figure::still("kurtogram", caption, &Arc::new(map), kurtogram);
             chapters.push(Chapter::of("kurtogram", "Kurtogram", Piece::Figure(map)));
         }
-        chapters.push(Chapter::of("envelope", "Envelope spectrum", plot("envelope", &r.envelopes, envelope)));
-        for table in tables {
-            let id = format!("table-{}", table.title.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "-"));
-            let short = table.title.clone();
-            chapters.push(Chapter::table(&id, &short, table));
-        }
+        chapters.extend(tables);
         chapters.push(Chapter::of("given", "What was given", Piece::List(r.notes.clone())));
         Self {
             title: r.title.clone(),

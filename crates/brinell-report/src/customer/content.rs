@@ -49,7 +49,7 @@ impl Judged {
         let told = format!("{}; {}", of.speed, a.shaft_words());
         // Expected frequencies stand beside, and are of the speed that was found.
         let speed = match (a.shaft / a.options.shaft - 1.0).abs() > 1e-4 {
-            true => format!("{}; used: {:.1} r/min, from the shaft's lines in the record", of.speed, 60.0 * a.shaft),
+            true => format!("{}; used: {:.1} r/min (shaft's lines)", of.speed, 60.0 * a.shaft),
             false => of.speed,
         };
         let record =

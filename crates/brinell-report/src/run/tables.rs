@@ -38,8 +38,10 @@ pub(super) fn facts(parts: &Parts, spread: &[Level]) -> Vec<Fact> {
                 note += &format!("; 95 %, scatter only: {} to {}", short(i.low, 3), short(i.high, 3));
             }
             let level = spread.iter().find(|level| level.name == format!("{}.{}", channel.name, indicator.name()));
-            if let Some([low, high]) = level.map(|level| level.band) {
-                note += &format!("; {} to {} by what is assumed", short(low, 3), short(high, 3));
+            match level.map(|level| level.band) {
+                Some([low, high]) => note += &format!("; {} to {} by what is assumed", short(low, 3), short(high, 3)),
+                None if indicator == Indicator::Rms => note += "; what is assumed may change it severalfold: --spread",
+                None => {}
             }
             facts.push(Fact::new(label, short(e.value, 3), unit, note));
         }

@@ -4,7 +4,7 @@ use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, wav
 use super::headline::{Headline, compared_headline};
 use crate::fact::Fact;
 use crate::frame::THINNED;
-use crate::number::{beside, bracketed, capital, raised, short, shown_unit, twelve_digits};
+use crate::number::{capital, raised, short, shown_unit, twelve_digits};
 use crate::page::{Chapter, Page};
 use crate::quantity::value_text;
 use crate::tables::Table;
@@ -124,10 +124,10 @@ fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
             continue;
         };
         let mut note = format!("of {}", names[0]);
-        let mut value = short(first.value, 3);
+        let value = short(first.value, 3);
         if let Some(ends) = first.interval {
-            let [fine, low, high] = beside(first.value, ends);
-            (value, note) = (fine, format!("{note}; 95 %, scatter only: {low} to {high}"));
+            let [low, high] = [ends.0, ends.1].map(|end| short(end, 3));
+            note = format!("{note}; 95 %, scatter only: {low} to {high}");
         }
         for (name, more) in rest {
             note = format!("{note}; {name}: {}", with_interval(*more));
@@ -295,5 +295,6 @@ fn signal(name: &str) -> &'static str {
 }
 
 fn with_interval(ratio: Ratio) -> String {
-    bracketed(ratio.value, 3, ratio.interval)
+    let value = short(ratio.value, 3);
+    ratio.interval.map_or(value.clone(), |(low, high)| format!("{value} ({} to {})", short(low, 3), short(high, 3)))
 }

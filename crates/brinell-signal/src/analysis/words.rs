@@ -165,6 +165,7 @@ impl Analysis {
                 Finding::Grown => "grown since healthy".into(),
                 Finding::AsBefore => "as in the healthy record".into(),
                 Finding::Silent if f.is_skirt && f.detected_harmonics() > 0 => "outside the tolerance".into(),
+                Finding::Silent if f.detected_harmonics() > 0 => "single lines, no more".into(),
                 Finding::Silent => "nothing".into(),
             };
             [
@@ -264,15 +265,15 @@ fn left_open(analysis: &Analysis) -> Vec<String> {
 fn damage(analysis: &Analysis, text: &mut Vec<String>) {
     for (i, family) in analysis.causes().enumerate() {
         let beside = if i > 0 { "Also " } else { "" };
-        let headline = format!(
-            "{beside}{} damage, {}: {}.",
-            family.component.words(),
-            analysis.clarity(family),
-            evidence::evidence_of(family)
-        );
+        let part = match family.name {
+            "FTF" => "rolling element or cage",
+            _ => family.component.words(),
+        };
+        let headline =
+            format!("{beside}{part} damage, {}: {}.", analysis.clarity(family), evidence::evidence_of(family));
         text.push(capital(&headline));
         if family.name == "FTF" {
-            text.push("One element causes an impact once a turn of the cage, in the load zone; damage of the cage shows the same.".into());
+            text.push("One element causes an impact once a turn of the cage, in the load zone, and damage of the cage the same.".into());
         }
         text.extend(analysis.slips(family).map(|lag| {
             format!(

@@ -191,6 +191,10 @@ fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError>
     if d == 0.0 {
         return Err(wrong("the range's step is zero".into()));
     }
+    // FROM:STEP:TO, as MATLAB has it.
+    if (d - a) * b > 0.0 && b.abs() < (d - a).abs() && (b - a) * d < 0.0 {
+        return Err(wrong(format!("a range is FROM:TO:STEP; did you mean {from}:{step}:{to}?")));
+    }
     if (b - a) * d < 0.0 {
         return Err(wrong(format!(
             "the range's step leads away from its end; a step of {} would reach it",
@@ -317,6 +321,7 @@ mod tests {
             ("a.b=1,,2", "a value is missing"),
             ("a.b=1:5", "a range has three parts, FROM:TO:STEP"),
             ("a.b=1000-3000", "a range is FROM:TO:STEP"),
+            ("a.b=900:100:1800", "a range is FROM:TO:STEP; did you mean 900:1800:100?"),
             ("a.b=1:5:0", "the range's step is zero"),
             ("a.b=5:1:2", "a.b = 5:1:2: the range's step leads away from its end; a step of -2 would reach it"),
             ("a.b=1:5:-2", "a step of 2 would reach it"),

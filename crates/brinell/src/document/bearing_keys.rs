@@ -11,6 +11,8 @@ use crate::bearing::rating::roller_length_mm;
 use crate::scenario::*;
 use crate::steel::DENSITY;
 
+/// What tells raceways beside a name.
+const OR_CIRCLE: &str = ", or pitch_diameter_mm and roller_diameter_mm";
 /// Where some keys have a meaning.
 pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
 pub(super) const BALLS: &str = "bearing.element is \"ball\"";
@@ -34,7 +36,8 @@ pub(super) fn bearing(k: &mut Keys, (model, laws): (ModelKind, Laws), b: &mut Be
     let of_bearing = |k: &mut Keys, name| k.foretold::<f64>("bearing", name);
     let of_circle = of_bearing(k, "pitch_diameter_mm").zip(of_bearing(k, "roller_diameter_mm")).filter(|(p, d)| p > d);
     // Where a sheet prints pitch circle and balls, and no grooves.
-    let raceway = |of: fn((f64, f64)) -> f64, how| of_circle.map_or(Catalogued, |circle| derived(of(circle), how));
+    let raceway =
+        |of: fn((f64, f64)) -> f64, how| of_circle.map_or(Catalogued(OR_CIRCLE), |circle| derived(of(circle), how));
     k.key(
         key("inner_raceway_diameter_mm", "D_i").above(0.0),
         raceway(|(p, d)| p - d, "pitch diameter less roller diameter"),
@@ -58,11 +61,11 @@ pub(super) fn bearing(k: &mut Keys, (model, laws): (ModelKind, Laws), b: &mut Be
         if between > 0.0 && b.inner_raceway_diameter_mm > 0.0 {
             derived(between, "half of what the raceway diameters differ by")
         } else {
-            Catalogued
+            Catalogued("")
         },
         &mut b.roller_diameter_mm,
     );
-    k.key(key("rollers_per_row", "Z").from(3.0).to(1000.0), Catalogued, &mut b.rollers_per_row);
+    k.key(key("rollers_per_row", "Z").from(3.0).to(1000.0), Catalogued(""), &mut b.rollers_per_row);
     k.key(key("rows", "N_r").from(1.0).to(100.0), assumed(1, "a single row"), &mut b.rows);
     k.optional(
         key(
@@ -79,7 +82,7 @@ pub(super) fn bearing(k: &mut Keys, (model, laws): (ModelKind, Laws), b: &mut Be
             Some(length) if length.is_finite() => {
                 derived(length, "from static_load_rating_n by ISO 76: C0 = 44 (1 - d / D_m) i Z L d")
             }
-            _ => Catalogued,
+            _ => Catalogued(""),
         },
         &mut b.roller_length_mm,
     );

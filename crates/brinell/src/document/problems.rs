@@ -76,6 +76,11 @@ impl<'a> Problems<'a> {
         self.add_of(problem.severity, kind, || (problem, span));
     }
 
+    /// Takes back what was added of a key with a message that begins so.
+    pub(crate) fn withdraw(&mut self, key: &str, begins: &str) {
+        self.list.retain(|problem| problem.key != key || !problem.message.starts_with(begins));
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()

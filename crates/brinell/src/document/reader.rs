@@ -22,6 +22,8 @@ use crate::scenario::Laws;
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
+/// What begins the message of a key that is not there and has to be.
+const MISSING: &str = "missing";
 
 /// A table being read.
 struct Frame<'a> {
@@ -140,10 +142,16 @@ impl<'a> Reader<'a> {
 
     fn unknown(&mut self, frame: &Frame<'_>, name: &str, entry: &Entry) {
         let vocabulary = self.vocabulary;
+        let mut meant = None;
         self.problems.add_of(Severity::Error, "unknown key", || {
-            let problem = unknown(vocabulary, frame, name, entry);
+            let (problem, known) = unknown(vocabulary, frame, name, entry);
+            meant = known;
             (problem, entry.key_span.clone())
         });
+        // One slip is one problem: the key that was meant is not missing too.
+        if let Some(known) = meant {
+            self.problems.withdraw(&join(&frame.path, known), MISSING);
+        }
     }
 
     fn misfit(&mut self, path: String, spec: &Spec, node: &Node, misfit: Misfit) {
@@ -169,7 +177,7 @@ impl<'a> Reader<'a> {
             return;
         }
         let header = frame.header.clone();
-        let problem = Problem::error(path, format!("missing: {expected} is required{why}"));
+        let problem = Problem::error(path, format!("{MISSING}: {expected} is required{why}"));
         self.problems.add(problem.unit(unit), header);
     }
 
@@ -281,10 +289,10 @@ impl<'a> Reader<'a> {
                 self.missing(path, spec.unit, expected(spec), "");
                 return false;
             }
-            Fallback::Catalogued if self.preset_unknown => return false,
-            Fallback::Catalogued => {
-                let why = " without a bearing.preset that states it";
-                self.missing(path, spec.unit, expected(spec), why);
+            Fallback::Catalogued(_) if self.preset_unknown => return false,
+            Fallback::Catalogued(or) => {
+                let why = format!(" without a bearing.preset that states it{or}");
+                self.missing(path, spec.unit, expected(spec), &why);
                 return false;
             }
             Fallback::Needed(case) => {
@@ -312,8 +320,14 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A key that a table has and should not, with the one that was meant where that can be guessed.
-fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry: &Entry) -> Problem {
+/// A key that a table has and should not, with the one of the same table that was meant where that can be guessed.
+fn unknown(
+    vocabulary: &[(String, String)],
+    frame: &Frame<'_>,
+    name: &str,
+    entry: &Entry,
+) -> (Problem, Option<&'static str>) {
+    let mut meant = None;
     let home = |section: &str| match section {
         "" => "the top of the file, before any section".to_string(),
         section => format!("[{section}]"),
@@ -331,6 +345,7 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
     } else if let Some(why) = left_out(name) {
         format!("; {why}")
     } else if let Some(known) = key_meant(name, &frame.named) {
+        meant = Some(known);
         format!("; did you mean `{known}`?")
     } else if let Some(known) = did_you_mean(name, vocabulary.iter().map(|(_, k)| k.as_str())) {
         format!("; did you mean `{known}` in {}?", elsewhere(known))
@@ -339,5 +354,6 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
     };
     let allowed = if hint.is_empty() { frame.named.join(", ") } else { String::new() };
     let path = join(&frame.path, name);
-    Problem::error(brief_path(&path), format!("unknown key{hint}")).value(entry.node.brief()).allowed(allowed)
+    let problem = Problem::error(brief_path(&path), format!("unknown key{hint}"));
+    (problem.value(entry.node.brief()).allowed(allowed), meant)
 }

@@ -63,9 +63,9 @@ impl Schema {
         let mut doc = describe(spec);
         match fallback {
             Fallback::Required => self.object().required.push(spec.name),
-            Fallback::Catalogued => {
+            Fallback::Catalogued(or) => {
                 self.object().catalogued.push(spec.name);
-                doc.push_str("; required without a preset that states it");
+                doc.push_str(&format!("; required without a preset that states it{or}"));
             }
             Fallback::Needed(case) => doc.push_str(&format!("; required: {case}")),
             Fallback::Derived { how, .. } | Fallback::Instead { how, .. } => doc.push_str(&format!("; default: {how}")),
@@ -132,7 +132,7 @@ impl Walk for Schema {
         value: &mut dyn Field,
     ) -> bool {
         let required = matches!(fallback, Fallback::Required);
-        let catalogued = matches!(fallback, Fallback::Catalogued);
+        let catalogued = matches!(fallback, Fallback::Catalogued(_));
         self.at_key(spec, fallback, value);
         let object = self.object();
         if required {

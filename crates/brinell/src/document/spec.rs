@@ -165,6 +165,11 @@ fn is_name(part: &str) -> bool {
 
 /// The key that a misspelt one is near, also where it lacks its unit.
 pub(super) fn key_meant<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    // Keys named after rollers are a ball's too.
+    let of_rollers = name.replace("ball", "roller");
+    if let Some(known) = known.iter().find(|known| name.contains("ball") && **known == of_rollers) {
+        return Some(known);
+    }
     let bare = |known: &&&str| did_you_mean(name, without_unit(known).into_iter()).is_some();
     did_you_mean(name, known.iter().copied()).or_else(|| known.iter().find(bare).copied())
 }

@@ -14,8 +14,8 @@ use crate::scenario::Laws;
 pub enum Fallback<T> {
     /// Nothing: the key must be given.
     Required,
-    /// Only a catalogue bearing.
-    Catalogued,
+    /// Only a catalogue bearing, or other keys: which, in words, or empty.
+    Catalogued(&'static str),
     /// Nothing in the present case; says which case that is.
     Needed(&'static str),
     /// Computed from earlier keys; always an assumption.
@@ -50,7 +50,7 @@ impl<T> Fallback<T> {
     pub(crate) fn map<U>(self, change: impl FnOnce(T) -> U) -> Fallback<U> {
         match self {
             Self::Required => Fallback::Required,
-            Self::Catalogued => Fallback::Catalogued,
+            Self::Catalogued(or) => Fallback::Catalogued(or),
             Self::Needed(case) => Fallback::Needed(case),
             Self::Derived { value, how } => Fallback::Derived { value: change(value), how },
             Self::Instead { value, how, assumed } => Fallback::Instead { value: change(value), how, assumed },
@@ -62,7 +62,7 @@ impl<T> Fallback<T> {
     pub(crate) fn value(self) -> Option<T> {
         match self {
             Self::Derived { value, .. } | Self::Instead { value, .. } | Self::Fixed { value, .. } => Some(value),
-            Self::Required | Self::Catalogued | Self::Needed(_) => None,
+            Self::Required | Self::Catalogued(_) | Self::Needed(_) => None,
         }
     }
 }
