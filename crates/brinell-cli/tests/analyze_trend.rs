@@ -30,6 +30,9 @@ fn regress_dated_records_have_a_trend_on_the_terminal_in_files_and_on_a_page() {
     let more = ["--limit", "kurtosis=4", "--limit", "rms=40", "--limit", "rms=1.5", "-o", "look", "--json", "all.json"];
     let done = trend(folder.path(), &more).exits(0).says(&[
         "10 records, 2024-03-01 06:00 to 2024-03-19 06:00, by the names of the files",
+        "RMS of the latest record is above its limit, 1.5 g. ",
+        "Damage of the outer race is called in ",
+        " of 10 records, first at 2024-03-1",
         "limit kurtosis 4: first above at 2024-03-",
         "limit rms 1.5 g: first above at 2024-03-19 06:00",
         "limit rms 40 g: no record is above; ",

@@ -33,8 +33,8 @@ impl Trend {
         all.join("; ")
     }
 
-    /// The trend in a few sentences: which parts were called damaged, in how many records and from when, and which levels
-    /// changed.
+    /// The trend in a few sentences: limits that the latest record is above, which parts were called damaged, in how many
+    /// records and from when, and which levels changed.
     pub fn summary(&self) -> String {
         let judged = self.records.iter().filter(|record| !matches!(&*record.says, "no_result" | "too_short")).count();
         let mut parts: Vec<(&str, usize, usize)> = Vec::new();
@@ -57,19 +57,17 @@ impl Trend {
         for (of, limit) in self.levels.iter().flat_map(|of| of.limits.iter().map(move |limit| (of, limit))) {
             if limit.sides.iter().rev().flatten().next().is_some_and(|side| side.is_above()) {
                 let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
-                sentences.insert(
-                    0,
-                    format!("The latest record is above the limit of {}, {}{unit}.", of.level.called(), limit.text()),
-                );
+                let name = of.level.label.split(',').next().unwrap_or_default();
+                sentences.insert(0, format!("{name} of the latest record is above its limit, {}{unit}.", limit.text()));
             }
         }
         let changes = |of: &&Followed| of.outcome.as_ref().is_some_and(|outcome| !outcome.changes.is_empty());
         let tested = self.levels.iter().any(|of| of.outcome.is_some());
-        let changed: Vec<String> = (self.levels.iter().filter(|of| of.level.by_factors).filter(changes))
-            .map(|of| format!("{}: {}.", of.level.label, self.words(of)))
+        let changed: Vec<&str> = (self.levels.iter().filter(|of| of.level.by_factors).filter(changes))
+            .map(|of| of.level.label.split(',').next().unwrap_or_default())
             .collect();
         match (changed.is_empty(), tested) {
-            (false, _) => sentences.extend(changed),
+            (false, _) => sentences.push(format!("Changed: {}.", changed.join(", "))),
             (true, true) => sentences.push("No level of the signal is shown to change.".into()),
             (true, false) => {}
         }

@@ -79,8 +79,9 @@ fn is_suffix(text: &str) -> bool {
     let bare = text.trim_start_matches(|c| is_gap(c) || c == '/');
     let seals = bare.strip_prefix('2').is_some_and(|after| after.starts_with(['R', 'Z', 'L', 'N']));
     let letters = bare.is_empty() || seals || bare.starts_with(|c: char| c.is_ascii_alphabetic());
-    // C1 to C5 are classes of clearance; C9 is a slip of the finger.
-    let no_class = |word: &str| matches!(word.as_bytes(), [b'C', b'0' | b'6'..=b'9']);
+    // C1 to C5 are classes of clearance; C9 and C33 are slips of the finger.
+    let no_class =
+        |word: &str| matches!(word.as_bytes(), [b'C', b'0' | b'6'..=b'9'] | [b'C', b'2'..=b'5', b'0'..=b'9']);
     letters && !words(text).any(no_class)
 }
 
@@ -154,6 +155,7 @@ mod tests {
         assert_eq!(readings("62052RS")[1].0, "6205");
         // Another bore, and another bearing.
         assert!(readings("UC204-12").is_empty());
+        assert!(readings("6205-C33").is_empty() && !readings("6205-C3").is_empty());
         assert_eq!(readings("NUP 206 ECP")[0].0, "NUP206");
         for name in ["", "-", " 2", "\u{b5}2\u{1f600}", "SKF", "2RS"] {
             let _ = readings(name);
