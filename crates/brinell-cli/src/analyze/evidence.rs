@@ -37,7 +37,7 @@ pub(super) fn chapter(rows: &[Row], each: Each, called: impl Fn(usize) -> String
     let mut pieces = Vec::new();
     if left > 0 {
         pieces.push(Piece::Note(format!(
-            "Of {}, the {} whose verdicts say most have their envelope spectrum here: damage by its score, then what cannot be told. That of another one: {}.",
+            "Of {}, the {} whose verdicts say most have their envelope spectrum here: damage by its score, then what cannot be told, then what has lines at a defect frequency. That of another one: {}.",
             shown.len() + left,
             shown.len(),
             each.alone()
