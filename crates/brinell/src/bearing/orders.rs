@@ -7,7 +7,6 @@ use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::did_you_mean::{did_you_mean, nearest_few};
 use crate::scenario::Bearing;
-use crate::signal::short;
 use std::f64::consts::TAU;
 
 /// Of a scenario's bearing.
@@ -185,7 +184,8 @@ impl KnownBearing {
         Ok(match self {
             Self::Catalogue(entry) => {
                 let geometry = entry.geometry()?;
-                let [diameter, pitch] = [geometry.roller_diameter, geometry.pitch_diameter].map(|m| short(1e3 * m, 5));
+                let [diameter, pitch] =
+                    [geometry.roller_diameter, geometry.pitch_diameter].map(|m| (1e6 * m).round() / 1e3);
                 let mut words = format!(
                     "{}: {}; {} elements a row of {diameter} mm on a pitch circle of {pitch} mm",
                     entry.name, entry.title, geometry.rollers_per_row
