@@ -34,6 +34,16 @@ impl Level {
             name => name.to_owned(),
         }
     }
+
+    /// For people, without its range: `RMS velocity`.
+    pub(super) fn brief(&self) -> &str {
+        self.label.split(',').next().unwrap_or_default()
+    }
+
+    /// Its unit as it stands behind a number.
+    pub(super) fn unit_behind(&self) -> String {
+        if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) }
+    }
 }
 
 /// Name, what it is, and where it is in a record's JSON.

@@ -55,17 +55,15 @@ impl Trend {
             sentences.push(format!("Damage is called in none of {judged} records."));
         }
         for (of, limit) in self.levels.iter().flat_map(|of| of.limits.iter().map(move |limit| (of, limit))) {
-            if limit.sides.iter().rev().flatten().next().is_some_and(|side| side.is_above()) {
-                let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
-                let name = of.level.label.split(',').next().unwrap_or_default();
+            if limit.reach == Err(NoReach::Above) {
+                let (name, unit) = (of.level.brief(), of.level.unit_behind());
                 sentences.insert(0, format!("{name} of the latest record is above its limit, {}{unit}.", limit.text()));
             }
         }
         let changes = |of: &&Followed| of.outcome.as_ref().is_some_and(|outcome| !outcome.changes.is_empty());
         let tested = self.levels.iter().any(|of| of.outcome.is_some());
-        let changed: Vec<&str> = (self.levels.iter().filter(|of| of.level.by_factors).filter(changes))
-            .map(|of| of.level.label.split(',').next().unwrap_or_default())
-            .collect();
+        let changed: Vec<&str> =
+            (self.levels.iter().filter(|of| of.level.by_factors).filter(changes)).map(|of| of.level.brief()).collect();
         match (changed.is_empty(), tested) {
             (false, _) => sentences.push(format!("Changed: {}.", changed.join(", "))),
             (true, true) => sentences.push("No level of the signal is shown to change.".into()),
@@ -84,7 +82,7 @@ impl Trend {
             let (low, high) = if sign < 0.0 { (scale(high), scale(low)) } else { (scale(low), scale(high)) };
             format!("{} ({} to {})", short(scale(value), 3), short(low.min(high), 3), short(low.max(high), 3))
         };
-        let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
+        let unit = of.level.unit_behind();
         match (change.kind, of.level.by_factors, of.doubling(change)) {
             (Kind::Step, true, _) => format!("step at {when} by a factor of {}", numbers(&f64::exp, 1.0)),
             (Kind::Step, false, _) => format!("step at {when} by {}{unit}", numbers(&|v| v, 1.0)),
@@ -112,7 +110,7 @@ impl Trend {
     }
 
     fn of_limit(&self, of: &Followed, limit: &Limit) -> String {
-        let unit = if of.level.unit.is_empty() { String::new() } else { format!(" {}", of.level.unit) };
+        let unit = of.level.unit_behind();
         let when =
             |record: usize| format!("{} ({})", self.times.text(self.times.at[record]), self.records[record].file);
         let above = match (limit.first_above(), limit.first_surely_above()) {

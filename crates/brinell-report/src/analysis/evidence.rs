@@ -13,10 +13,15 @@ use crate::layout::Layout;
 use crate::markup::escape;
 use crate::page::{Figure, Folded, Piece};
 use crate::tables::Table;
-use brinell::analysis::{Finding, Verdict};
+use brinell::analysis::{Analysis, Finding, Verdict};
 
 /// Lines that an envelope spectrum keeps for zooming.
 const KEPT: usize = 4096;
+
+/// The highest score of a damage.
+pub(crate) fn highest_score(a: &Analysis) -> Option<f64> {
+    a.causes().map(|family| family.score).max_by(f64::total_cmp)
+}
 
 /// How much a verdict says: damage by its score, then what cannot be told.
 pub(crate) fn weight(score: Option<f64>, verdict: Verdict) -> (f64, bool) {
@@ -36,11 +41,10 @@ impl Evidence {
     /// That of the bearing that leads.
     pub fn of(findings: &Findings) -> Self {
         let a = findings.signal.analysis;
-        let score = a.causes().map(|family| family.score).max_by(f64::total_cmp);
         let present = a.families.iter().filter(|family| family.finding != Finding::Silent);
         Self {
             report: Arc::new(AnalysisReport::evidence(findings)),
-            weight: weight(score, a.conclusion()),
+            weight: weight(highest_score(a), a.conclusion()),
             present: present.map(|family| family.score).fold(0.0, f64::max),
         }
     }

@@ -15,7 +15,7 @@ use crate::tables::Table;
 pub(crate) use content::with_interval;
 pub use content::{Analyzed, Findings};
 pub use evidence::Evidence;
-pub(crate) use evidence::weight;
+pub(crate) use evidence::{highest_score, weight};
 pub use level::{ZONES, level_lines, scaled};
 pub(crate) use page::envelope_of_size;
 pub(crate) use waveform::close_of_size;

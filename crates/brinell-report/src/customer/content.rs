@@ -2,7 +2,7 @@
 
 use super::words::rate;
 use super::{CustomerReport, Heading, Judged, NotJudged, Whole};
-use crate::analysis::{AnalysisReport, Findings, scaled, weight, with_interval};
+use crate::analysis::{AnalysisReport, Findings, highest_score, scaled, weight, with_interval};
 use crate::number::{raised, short};
 use crate::tables::Table;
 use brinell::analysis::{Analysis, Component, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
@@ -87,7 +87,7 @@ impl Judged {
                 .causes()
                 .map(|family| if family.name == "FTF" { Component::Cage } else { family.component })
                 .collect(),
-            score: a.causes().map(|family| family.score).max_by(f64::total_cmp),
+            score: highest_score(a),
             reason: reason(a),
             whole: whole(of.findings.levels),
             severity,

@@ -23,8 +23,8 @@
   reach();
   addEventListener("resize", reach);
   // On a phone what is looked up, and is long, stands folded.
-  const long = ["assumptions", "audits", "slip", "scenario"].flatMap((id) => ["> .scroll", "> pre"].map((what) => `#${id} ${what}`));
-  if (matchMedia("(max-width: 700px)").matches) document.querySelectorAll(long.join()).forEach((whole) => {
+  const long = ":is(#assumptions, #audits, #slip, #scenario) > :is(.scroll, pre)";
+  if (matchMedia("(max-width: 700px)").matches) document.querySelectorAll(long).forEach((whole) => {
     if (whole.offsetHeight < 600) return;
     const fold = document.createElement("details"), name = document.createElement("summary"), rows = whole.querySelectorAll("tbody tr").length;
     name.textContent = rows ? `Table of ${rows} rows` : "Whole text";

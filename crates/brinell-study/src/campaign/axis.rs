@@ -191,11 +191,11 @@ fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError>
     if d == 0.0 {
         return Err(wrong("the range's step is zero".into()));
     }
-    // FROM:STEP:TO, as MATLAB has it.
-    if (d - a) * b > 0.0 && b.abs() < (d - a).abs() && (b - a) * d < 0.0 {
-        return Err(wrong(format!("a range is FROM:TO:STEP; did you mean {from}:{step}:{to}?")));
-    }
     if (b - a) * d < 0.0 {
+        // FROM:STEP:TO, as MATLAB has it.
+        if (d - a) * b > 0.0 && b.abs() < (d - a).abs() {
+            return Err(wrong(format!("a range is FROM:TO:STEP; did you mean {from}:{step}:{to}?")));
+        }
         return Err(wrong(format!(
             "the range's step leads away from its end; a step of {} would reach it",
             if let Some(positive) = step.strip_prefix('-') {

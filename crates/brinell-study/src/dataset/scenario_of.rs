@@ -19,18 +19,21 @@ pub fn scenario_of(folder: impl AsRef<Path>, number: u64) -> Result<String, Data
     let mut found = None;
     let mut runs = 0;
     for path in &opened.parts {
+        // The texts of the other runs stay unread.
+        let (first, mut at) = (runs, None);
         opened.each_row(
             path,
-            &[RUN, SCENARIO],
+            &[RUN],
             |_| true,
             |row| {
-                runs += 1;
                 if matches!(row[RUN], Cell::Whole(k) if u64::try_from(k) == Ok(number)) {
-                    found = Some(words(&row, SCENARIO));
+                    at = Some(runs - first);
                 }
+                runs += 1;
             },
         )?;
-        if found.is_some() {
+        if let Some(at) = at {
+            opened.each_row(path, &[SCENARIO], |row| row == at, |row| found = Some(words(&row, SCENARIO)))?;
             break;
         }
     }

@@ -268,7 +268,7 @@ pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Pr
 /// That the bracket at `at` is not closed before the line at `next`.
 fn not_closed(text: &str, at: usize, next: usize) -> Problem {
     let (open, close) = if text[at..].starts_with('{') { ('{', '}') } else { ('[', ']') };
-    let line = text[..next].bytes().filter(|&byte| byte == b'\n').count() + 1;
+    let line = Place::new(text, next..next).line;
     Problem::error(
         "",
         format!("not valid TOML: this `{open}` is not closed before line {line}; its `{close}` is missing"),
