@@ -129,6 +129,9 @@ pub(crate) struct SchemaArgs {
 pub(crate) enum BearingCommand {
     /// List the catalogue, and the bearings known by their frequencies alone
     List {
+        /// Only those with this frequency: BPFO, BPFI or 2 BSF over the shaft's, within 2 %. Repeated: with each of them
+        #[arg(long, value_name = "ORDER")]
+        order: Vec<f64>,
         /// Print JSON
         #[arg(long)]
         json: bool,

@@ -27,11 +27,12 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
 
 pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
     match command {
-        BearingCommand::List { json: true } => {
+        BearingCommand::List { json, order } if !order.is_empty() => of_orders(order, *json)?,
+        BearingCommand::List { json: true, .. } => {
             let all: Value = KnownBearing::all().map(listed).collect();
             say::json(&all);
         }
-        BearingCommand::List { json: false } => list(),
+        BearingCommand::List { json: false, .. } => list(),
         BearingCommand::Show { name, json: true } => {
             let json = shown(find(name)?, clearance_of(name));
             say::json(&json);
@@ -74,6 +75,40 @@ fn list() {
         }
     }
     say!("\n`brinell bearing show NAME` gives every number with its source.");
+}
+
+/// How far slip and an inexact speed may move a frequency, relative.
+const TOLERANCE: f64 = 0.02;
+
+/// The bearings that have these frequencies.
+fn of_orders(orders: &[f64], json: bool) -> Result<(), Failure> {
+    let (least, most) = (1.0, DefectOrders::POSSIBLE[1].1);
+    if let Some(order) = orders.iter().find(|order| !(least..=most).contains(*order)) {
+        return Err(Failure::Usage(format!(
+            "--order {order}: expected {least} to {most}, a frequency over the shaft's: at 1797 r/min 107.4 Hz are 107.4 / 29.95 = 3.586"
+        )));
+    }
+    let found = KnownBearing::struck_at(orders, TOLERANCE);
+    if json {
+        let one = |(known, frequencies): &(KnownBearing, Vec<(&str, f64)>)| {
+            let mut json = listed(*known);
+            json["frequencies"] = frequencies.iter().map(|(name, own)| (*name, *own)).collect::<Value>();
+            json
+        };
+        say::json(&found.iter().map(one).collect::<Value>());
+        return Ok(());
+    }
+    if found.is_empty() {
+        say!("No bearing known by name has each of them within 2 %.");
+    }
+    for (known, frequencies) in found {
+        let words = orders.iter().zip(&frequencies).map(|(order, (name, own))| {
+            let off = 100.0 * (order / own - 1.0);
+            format!("{name:<5} {own:>7.3} ({off:+.2} %)")
+        });
+        say!("{:<8} {}  {}", known.name(), words.collect::<Vec<_>>().join("  "), known.title());
+    }
+    Ok(())
 }
 
 /// A line of the list as JSON.

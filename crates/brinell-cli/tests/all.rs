@@ -9,6 +9,7 @@ mod analyze_size;
 mod analyze_together;
 mod analyze_trend;
 mod analyze_units;
+mod analyze_unknown;
 mod analyze_warnings;
 mod calibrate;
 mod check;

@@ -6,10 +6,13 @@ use brinell::analysis::{DefectOrders, Wording};
 use brinell::bearing::KnownBearing;
 use brinell::scenario::Bearing;
 
+/// What is given in place of a name where nobody knows the bearing: its lines are sought as a comb of any frequency.
+pub const UNKNOWN: &str = "unknown";
+
 /// A bearing that was asked about.
 #[derive(Debug, Clone)]
 pub enum Asked {
-    /// By its name.
+    /// By its name; [`UNKNOWN`] where nobody knows it.
     Name(String),
     /// That of a scenario.
     Scenario {
@@ -23,6 +26,11 @@ pub enum Asked {
 }
 
 impl Asked {
+    /// Whether nobody knows it.
+    pub(crate) fn is_unknown(&self) -> bool {
+        matches!(self, Self::Name(name) if name.eq_ignore_ascii_case(UNKNOWN))
+    }
+
     /// What it is called.
     pub fn name(&self) -> &str {
         let (Self::Name(name) | Self::Scenario { name, .. }) = self;

@@ -26,7 +26,7 @@ pub(crate) fn orders(
         }
     }
     let orders = known.with_given(given).map_err(|error| Problem::Given(error.to_string()))?;
-    if orders.is_empty() {
+    if orders.is_empty() && !asked.is_some_and(Asked::is_unknown) {
         return Err(Problem::Given(Question::Bearing.words(called)));
     }
     let doubled =
@@ -77,6 +77,10 @@ fn base(
         Some(Asked::Scenario { name, words, bearing }) => {
             elements.no_angle_of(name, *called)?;
             Some((orders_of(bearing), words.clone()))
+        }
+        Some(asked) if asked.is_unknown() => {
+            let words = "not known: lines are sought as a comb of any frequency that a race may have".to_owned();
+            return Ok((DefectOrders::default(), Source::Given, Some(words).filter(|_| !request.has_frequencies())));
         }
         Some(Asked::Name(name)) => {
             let Some(known) = KnownBearing::find(name) else {

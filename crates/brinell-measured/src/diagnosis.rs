@@ -5,6 +5,7 @@ use crate::measurement::Measurement;
 use crate::size::Length;
 use crate::stretch::Rest;
 use brinell::analysis::{Analysis, Comparison, Component, DefectOrders, Family, Levels};
+use brinell::bearing::KnownBearing;
 use brinell::document::Loaded;
 use brinell::scenario::Surface;
 use brinell::signal::VelocityBands;
@@ -90,12 +91,33 @@ impl Diagnosis {
     /// The verdict, and what is to be said beside it.
     pub fn verdict_text(&self) -> String {
         let mut said = vec![self.analysis.verdict()];
+        said.extend(self.struck_alike());
         // What answers the question comes first.
         let at = if self.lines_of.is_some() { 0 } else { 1 };
         said.splice(at..at, self.beside.clone());
         said.extend(self.size_words().map(|words| format!("Size: {words}")));
         said.extend(self.wrong.clone());
         said.join(" ")
+    }
+
+    /// Where the bearing is not known, those known by name that have its comb.
+    fn struck_alike(&self) -> Option<String> {
+        /// What is read at a glance.
+        const SHOWN: usize = 6;
+        let a = &self.analysis;
+        let order = a.elsewhere.filter(|_| a.has_no_bearing())?.frequency / a.shaft;
+        let all = KnownBearing::struck_at(&[order], a.options.tolerance);
+        let (first, rest) = all.split_at(all.len().min(SHOWN));
+        let per_cent = (1e4 * a.options.tolerance).round() / 1e2;
+        if first.is_empty() {
+            return Some(format!("No bearing known by name has a frequency within {per_cent} % of it."));
+        }
+        let frequency =
+            |found: &[(&str, f64)]| found.iter().map(|(name, own)| format!("{name} {own:.3}")).collect::<String>();
+        let first: Vec<String> =
+            first.iter().map(|(known, found)| format!("{} ({})", known.name(), frequency(found))).collect();
+        let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
+        Some(format!("Known by name with such a frequency, within {per_cent} %: {}{more}.", first.join(", ")))
     }
 
     /// The length of the damage in words, where it was asked.

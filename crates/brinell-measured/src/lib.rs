@@ -46,7 +46,7 @@ mod together;
 mod trend;
 mod unit;
 
-pub use asked::{Asked, Elements};
+pub use asked::{Asked, Elements, UNKNOWN};
 pub use called::Called;
 pub use diagnosis::{Against, Diagnosis, Findings};
 pub use examine::examine;

@@ -96,11 +96,11 @@ impl Question {
             }
             Self::Bearing => match called {
                 Called::Options(_) => {
-                    "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)"
+                    "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf); --bearing unknown seeks without one"
                 }
                 Called::Fields => "which bearing? Choose one",
                 Called::Keywords => {
-                    "which bearing? Give bearing, or rollers, pitch_mm and diameter_mm, or orders (bpfo, bpfi, bsf, ftf)"
+                    "which bearing? Give bearing, or rollers, pitch_mm and diameter_mm, or orders (bpfo, bpfi, bsf, ftf); bearing=\"unknown\" seeks without one"
                 }
             }
             .into(),

@@ -1,6 +1,6 @@
 //! What is asked of a measured signal, and what was given of it.
 
-use crate::asked::{Asked, Elements};
+use crate::asked::{Asked, Elements, UNKNOWN};
 use crate::called::Called;
 use crate::known::Source;
 use crate::problem::Problem;
@@ -105,6 +105,12 @@ impl Request {
     pub fn check(&self) -> Result<(), Problem> {
         if let Some(given) = self.speed {
             self.turning(given.rpm, &self.source_of_speed(&Source::Given))?;
+        }
+        if self.bearings.len() > 1 && self.bearings.iter().any(Asked::is_unknown) {
+            return Err(Problem::Given(format!(
+                "{}: expected it alone, and other bearings are given",
+                self.called.text("bearing", UNKNOWN)
+            )));
         }
         match self.supply {
             Some(hz) if !SUPPLY_HZ.contains(&hz) => {

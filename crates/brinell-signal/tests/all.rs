@@ -10,5 +10,6 @@ mod rig;
 mod signal_scipy;
 mod together;
 mod trend;
+mod unknown;
 mod verdicts;
 mod wrong_speed;

@@ -422,8 +422,6 @@ fn regress_words_on_what_cannot_be_analysed() {
     holes[7] = f64::NAN;
     holes[9] = f64::INFINITY;
     assert!(say(&holes, 12_000.0).starts_with("2 of 12000 samples are missing or infinite, the first at sample 8"));
-    let none = analyze(&x, 12_000.0, &Options::new(30.0, DefectOrders::default()));
-    assert!(matches!(none, Err(AnalysisError::NoFrequencies)));
 }
 
 #[test]

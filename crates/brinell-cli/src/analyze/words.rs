@@ -9,6 +9,10 @@ use std::path::PathBuf;
 /// What is found at each defect frequency, in columns.
 fn families(a: &Analysis) {
     let heads = COLUMNS.map(|c| c.trim_start_matches('#').to_owned());
+    // Of no bearing there are none.
+    if a.families.is_empty() {
+        return;
+    }
     let rows: Vec<_> = [heads].into_iter().chain(a.rows()).collect();
     let width = |i: usize| rows.iter().map(|r| r[i].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..COLUMNS.len()).map(width).collect();

@@ -188,6 +188,7 @@ fn headline(a: &Analysis) -> (String, Tone) {
 /// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.
 fn strike(a: &Analysis) -> f64 {
     let found = a.causes().next().map(|f| f.frequency);
+    let found = found.or(a.elsewhere.filter(|_| a.has_no_bearing()).map(|comb| comb.frequency));
     found.unwrap_or(a.options.orders.bpfo.unwrap_or(1.0) * a.shaft)
 }
 
@@ -236,8 +237,12 @@ fn markers(a: &Analysis) -> Vec<Marker> {
         sidebands: if f.finding == Finding::Damage { sidebands(f) } else { Vec::new() },
     };
     let elsewhere = a.elsewhere.map(|e| Marker {
-        label: "other".into(),
-        meaning: "deepest comb, at no frequency of this bearing".into(),
+        label: if a.has_no_bearing() { "comb" } else { "other" }.into(),
+        meaning: match a.has_no_bearing() {
+            true => "comb as of a damaged race",
+            false => "deepest comb, at no frequency of this bearing",
+        }
+        .into(),
         frequency_hz: e.frequency,
         pure_rolling_hz: None,
         harmonics: HARMONICS,

@@ -64,6 +64,7 @@ pub(crate) fn envelope_of_size(report: &AnalysisReport, size: Size) -> Plot<'_> 
 impl From<AnalysisReport> for Page {
     fn from(mut report: AnalysisReport) -> Self {
         let tables = std::mem::take(&mut report.tables);
+        let has_families = tables.first().is_some_and(|table| !table.rows.is_empty());
         let r = Arc::new(report);
         let verdict = vec![Piece::Verdict(r.tone, r.verdict.clone()), Piece::Headline(r.facts.clone())];
         let whole = Figure::still("whole", "", &r, |r, layout| whole(r, layout).picture());
@@ -82,7 +83,8 @@ impl From<AnalysisReport> for Page {
             Chapter::table(&id, &short, table)
         };
         let mut tables = tables.into_iter().map(table);
-        chapters.extend(tables.next());
+        // Of no bearing nothing is in it.
+        chapters.extend(tables.next().filter(|_| has_families));
         chapters.push(Chapter::new("waveform", "Waveform", "Waveform", waveform));
         chapters.push(Chapter::of("spectrum", "Spectrum", plot("spectrum", &r.spectra, spectrum)));
         if let Some(map) = r.kurtogram.clone() {

@@ -35,7 +35,10 @@ pub fn called(a: &Analysis) -> String {
                 Unexplained::Impacts(kurtosis, _) => format!(", impacts (kurtosis {})", short(kurtosis, 3)),
                 Unexplained::Level(growth) => format!(", RMS {growth:.1} times the healthy record's"),
             });
+            let comb = a.elsewhere.filter(|_| a.has_no_bearing());
+            let comb = comb.map(|comb| format!(", lines at {:.3} times the shaft's speed", comb.frequency / a.shaft));
             "cannot tell".to_owned()
+                + &comb.unwrap_or_default()
                 + &unexplained.unwrap_or_default()
                 + &grown.map(|f| format!(", {} has grown", f.name)).collect::<String>()
         }

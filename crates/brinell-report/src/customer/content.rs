@@ -129,6 +129,14 @@ fn reason(a: &Analysis) -> String {
         Verdict::NothingFound => "At none of the rates at which damage of this bearing strikes does the vibration show more than that of healthy machines.".into(),
         _ if a.at_given.is_some() => "At the speed given a part would be damaged, but the record's own lines tell another speed. Which is right?".into(),
         _ if with(Finding::Grown).is_some() => "Impacts at a rate of this bearing have grown since the healthy record, and do not yet reach what damage shows.".into(),
+        _ if a.has_no_bearing() => match a.elsewhere {
+            Some(comb) => format!(
+                "Something strikes regularly, {:.1} times a second, {:.3} times a turn of the shaft, as damage of a bearing's race would. No bearing was given to tell whether it is one.",
+                comb.frequency,
+                comb.frequency / a.shaft
+            ),
+            None => "No bearing was given, and nothing strikes regularly as damage of a bearing's race would.".into(),
+        },
         _ if a.elsewhere.is_some() => {
             let speeds = a.speeds_of_comb().map_or(String::new(), |words| format!(" {words}"));
             format!("Something strikes regularly, at a rate that is none of this bearing's: another bearing, a gear, or a wrong speed or bearing would explain it.{speeds}")
@@ -225,6 +233,12 @@ fn levels(of: &Findings) -> Table {
 }
 
 fn method(a: &Analysis) -> String {
+    if a.has_no_bearing() {
+        return format!(
+            "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There a comb of five lines was sought at every frequency from 1.5 times the shaft's; lines of shaft and mains do not count. One is named where it is high over the noise and modulates the envelope deeply, as damage of a race does.",
+            a.bands
+        );
+    }
     format!(
         "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling; lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of healthy machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
         a.bands,

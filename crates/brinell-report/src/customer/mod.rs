@@ -103,6 +103,11 @@ pub struct CustomerReport {
 }
 
 impl Judged {
+    /// Whether no bearing was given: then there is no frequency to show evidence at.
+    pub(crate) fn has_no_bearing(&self) -> bool {
+        self.evidence.rows.is_empty()
+    }
+
     /// Good, bad or neither.
     pub(crate) fn tone(&self) -> Tone {
         match self.verdict {

@@ -1,7 +1,7 @@
 //! The two pages, and the same in one column for a phone.
 
 use super::flow::{Block, Column, Setting};
-use super::words::{BASIS, NOT_SAID, grade, headline, kind, limits, steps, sure};
+use super::words::{BASIS, grade, headline, kind, limits, not_said, steps, sure};
 use super::{CustomerReport, Judged};
 use crate::analysis::{close_of_size, envelope_of_size};
 use crate::chart::Size;
@@ -154,7 +154,6 @@ impl CustomerReport {
     /// For who checks: evidence, method, where it comes from.
     fn second(&self) -> Vec<Block<'_>> {
         let lead = &self.lead;
-        let evidence = Block::Table { table: lead.evidence.clone(), most: 6 };
         let close = Block::Figure {
             draw: Box::new(|size| close_of_size(&lead.report, size).picture()),
             caption: "The signal in the middle of the record, about ten periods of the rate that leads.".into(),
@@ -162,7 +161,7 @@ impl CustomerReport {
         let levels = vec![Block::Heading("Levels"), Block::Table { table: lead.levels.clone(), most: 8 }];
         let open = vec![
             Block::Heading("What the verdict does not say"),
-            Block::List { items: NOT_SAID.map(str::to_owned).to_vec(), numbered: false },
+            Block::List { items: not_said(lead).map(str::to_owned).to_vec(), numbered: false },
         ];
         let source = vec![Block::Heading("Where it comes from"), Block::Facts(lead.provenance.clone())];
         let mut method =
@@ -177,15 +176,18 @@ impl CustomerReport {
             method.push(Block::Heading("Remarks on the record"));
             method.push(Block::List { items, numbered: false });
         }
-        vec![
-            Block::Heading("Evidence"),
-            Block::Text { first: "In the program's words:", words: lead.report.verdict.clone(), most: 8 },
-            evidence,
+        let words = Block::Text { first: "In the program's words:", words: lead.report.verdict.clone(), most: 8 };
+        let mut blocks = vec![Block::Heading("Evidence"), words];
+        if !lead.has_no_bearing() {
+            blocks.push(Block::Table { table: lead.evidence.clone(), most: 6 });
+        }
+        blocks.extend([
             Block::Heading("The signal"),
             close,
             Block::Beside(levels, open),
             Block::Beside(method, source),
-        ]
+        ]);
+        blocks
     }
 }
 
@@ -217,8 +219,14 @@ fn caption(lead: &Judged) -> &'static str {
         (true, Verdict::Damage) => {
             "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence. Short marks above: sidebands. Other peaks are the shaft's or come from elsewhere."
         }
+        (true, _) if lead.has_no_bearing() => {
+            "How often the machine rings, from the envelope of the vibration. Dashed: the rate of the strongest regular impacts and its multiples."
+        }
         (true, _) => {
             "How often the machine rings, from the envelope of the vibration. Dashed: the rate of the strongest regular impacts and its multiples, which is none of this bearing's."
+        }
+        (false, _) if lead.has_no_bearing() => {
+            "How often the machine rings, from the envelope of the vibration. No rate and its multiples stand out as damage of a race would make them."
         }
         (false, _) => {
             "How often the machine rings, from the envelope of the vibration. Marks above: where damage of each part would have its peaks. High peaks without a mark are the shaft's or the mains', or come from elsewhere."

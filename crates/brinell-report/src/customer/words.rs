@@ -139,7 +139,10 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
             "Check place, direction and mounting of the sensor, the speed and the bearing's designation: seen damage should show, unless it is small or far from the sensor.",
         ),
         (Verdict::CannotTell, _) => steps.extend([
-            "Settle what is open: check the speed (best with a tachometer), the designation of the bearing, and other bearings, gears and couplings nearby.",
+            match of.lead.has_no_bearing() {
+                true => "Find out which bearing it is (parts list, housing, maker of the machine) and have the record judged with it; check other bearings, gears and couplings nearby.",
+                false => "Settle what is open: check the speed (best with a tachometer), the designation of the bearing, and other bearings, gears and couplings nearby.",
+            },
             "Measure again on the bearing's housing: sixty turns of the shaft or more at steady speed, sampled at 10 kHz or more.",
             "Do not exchange the bearing on this record alone; measure at shorter intervals until it is settled.",
         ]),
@@ -181,12 +184,21 @@ pub(super) fn kind(of: &CustomerReport) -> Option<String> {
 }
 
 /// What a verdict leaves open.
-pub(super) const NOT_SAID: [&str; 4] = [
-    "How long the bearing will last, and what caused the damage.",
-    "Faults of other parts: the frequencies of this bearing alone were looked for. As a rule the stronger of two damaged parts is named.",
-    "Whether speed, bearing, unit and sensitivity were right: if not, every line lies elsewhere, or every level and zone is wrong. Most such errors are noticed, not all.",
-    "That a bearing without a finding is healthy.",
-];
+pub(super) fn not_said(lead: &Judged) -> [&'static str; 4] {
+    [
+        "How long the bearing will last, and what caused the damage.",
+        match lead.has_no_bearing() {
+            true => {
+                "Which part it is: no bearing was given. Damage of a rolling element or the cage was not looked for."
+            }
+            false => {
+                "Faults of other parts: the frequencies of this bearing alone were looked for. As a rule the stronger of two damaged parts is named."
+            }
+        },
+        "Whether speed, bearing, unit and sensitivity were right: if not, every line lies elsewhere, or every level and zone is wrong. Most such errors are noticed, not all.",
+        "That a bearing without a finding is healthy.",
+    ]
+}
 
 #[cfg(test)]
 mod tests {

@@ -22,6 +22,8 @@ pub enum BandChoice {
     Clearest,
     /// Everything above three times the highest defect frequency.
     Broad,
+    /// Everything above three times what that may be, where the bearing is not known.
+    OfUnknown,
 }
 
 impl BandChoice {
@@ -31,6 +33,7 @@ impl BandChoice {
             BandChoice::Given => "given",
             BandChoice::Clearest => "where its lines are strongest",
             BandChoice::Broad => "everything above three times the highest defect frequency",
+            BandChoice::OfUnknown => "everything above 36 turns of the shaft, as no bearing is given",
         }
     }
 }

@@ -75,6 +75,9 @@ impl Search<'_> {
     ///
     /// A simulation has nothing else that turns.
     pub(super) fn comb(&self, lead: Option<&Family>) -> Option<Elsewhere> {
+        if self.options.orders.is_empty() {
+            return self.of_unknown();
+        }
         if self.options.exact {
             return None;
         }
@@ -92,14 +95,30 @@ impl Search<'_> {
         // Measured alike: with sidebands where the leading family has any.
         let spacing = lead.and_then(|l| l.sidebands.as_ref()).map(|s| s.spacing);
         let depth = |f: f64| lines(together, f, spacing).modulation;
-        let step = 0.25 * together.step() / HARMONICS as f64;
-        let top = together.top() / (FEWEST_HARMONICS + 0.5);
-        let places = (0..).map(|k| LOWEST * self.shaft + f64::from(k) * step).take_while(|f| *f < top);
-        let places = places.filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead));
+        let places = self.places().filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead));
         let highest = Highest::of(places, depth).filter(|h| h.height > shallow)?;
         let (frequency, modulation) = (by_lines(together, highest.middle()), highest.height);
         let (score, nearest) = (score(together, frequency), self.nearest(frequency));
         Some(Elsewhere { frequency, score, modulation, nearest, every: None })
+    }
+
+    /// Where a comb may have its fundamental.
+    fn places(&self) -> impl Iterator<Item = f64> + use<> {
+        let step = 0.25 * self.together.step() / HARMONICS as f64;
+        let (lowest, top) = (LOWEST * self.shaft, self.together.top() / (FEWEST_HARMONICS + 0.5));
+        (0..).map(move |k| lowest + f64::from(k) * step).take_while(move |f| *f < top)
+    }
+
+    /// Where the bearing is not known: of the combs that would be damage of a race the one whose product of score and depth is highest. (The
+    /// deepest may be one of sidebands, k (f - f_shaft); the one that scores highest every second line of the race's.)
+    fn of_unknown(&self) -> Option<Elsewhere> {
+        let together = self.together;
+        let depth = |f: f64| lines(together, f, None).modulation;
+        let may_be = |f: &f64| score(together, *f) >= SCORE && depth(*f) > FAINT;
+        let highest = Highest::of(self.places().filter(may_be), |f| score(together, f) * depth(f))?;
+        let frequency = by_lines(together, highest.middle());
+        let (score, modulation) = (score(together, frequency), depth(frequency));
+        Some(Elsewhere { frequency, score, modulation, nearest: None, every: None })
     }
 
     /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that excites a

@@ -135,9 +135,6 @@ pub enum AnalysisError {
         /// As it was given.
         text: String,
     },
-    /// No defect frequency to look for.
-    #[error("no defect frequency is known, so there is nothing to look for")]
-    NoFrequencies,
     /// A parameter out of its range.
     #[error(transparent)]
     Signal(#[from] SignalError),

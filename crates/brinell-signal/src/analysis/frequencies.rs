@@ -66,6 +66,9 @@ pub fn most_elements(d: f64, pitch: f64) -> f64 {
     (PI / (d / pitch).clamp(0.0, 1.0).asin()).ceil() - 1.0
 }
 
+/// BPFI over the shaft's frequency up to which combs are sought where the bearing is not known: of 20 elements with g = 0.2.
+const UNKNOWN: f64 = 12.0;
+
 /// Names of the orders that may be given, in their order.
 const GIVEN: [&str; 4] = ["BPFO", "BPFI", "BSF", "FTF"];
 
@@ -165,14 +168,14 @@ impl DefectOrders {
         (!named.is_empty()).then(|| format!("{} as given", named.join(", ")))
     }
 
-    /// Whether there is nothing to look for.
+    /// Whether the bearing is not known.
     pub fn is_empty(&self) -> bool {
         self.defect_frequencies().next().is_none()
     }
 
-    /// The highest of them; 0 where there is none.
+    /// The highest of them; that of a race with 20 elements where the bearing is not known.
     pub(super) fn highest(&self) -> f64 {
-        self.defect_frequencies().fold(0.0, |highest, s| s.2.max(highest))
+        self.defect_frequencies().map(|s| s.2).reduce(f64::max).unwrap_or(UNKNOWN)
     }
 
     /// What to look for: component, name, order of its impacts.

@@ -239,16 +239,24 @@ fn tell(records: &[Prepared], fs: f64, options: &Options, whole: bool) -> Result
 /// none leads.
 fn view(record: &Record, envelopes: &Envelopes, records: &[Paced]) -> Result<View, AnalysisError> {
     let (shaft, options) = (record.shaft, &record.options);
-    let (band, choice, (mean, spectrum)) = match (options.band, record.lead()) {
-        (None, Some(lead)) => {
-            let lines = lead.harmonics.iter().filter(|h| h.snr_db.is_some()).map(|h| h.frequency);
-            let (band, of_band) = &envelopes.each[record.together.clearest(lines)];
+    let seen = record
+        .lead()
+        .map(|lead| lead.harmonics.iter().filter(|h| h.snr_db.is_some()).map(|h| h.frequency).collect::<Vec<f64>>());
+    // Without a bearing it is the comb that is asked about.
+    let of_comb = || {
+        let comb = record.elsewhere.filter(|_| options.orders.is_empty())?;
+        Some((1..=HARMONICS).map(|k| k as f64 * comb.frequency).collect())
+    };
+    let (band, choice, (mean, spectrum)) = match (options.band, seen.or_else(of_comb)) {
+        (None, Some(lines)) => {
+            let (band, of_band) = &envelopes.each[record.together.clearest(lines.into_iter())];
             let spectrum = envelopes.spectrum(of_band, shaft, options)?;
             (*band, BandChoice::Clearest, spectrum)
         }
         (given, _) => {
             let choice = match given {
                 Some(_) => BandChoice::Given,
+                None if options.orders.is_empty() => BandChoice::OfUnknown,
                 None => BandChoice::Broad,
             };
             let range = bands::range(records[0].0.sample_rate(), options)?;
@@ -327,10 +335,8 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
         return Err(AnalysisError::OneWay(if rises { "rise" } else { "fall" }));
     }
     let all = options.orders.defect_frequencies();
-    let Some((_, name, highest)) = all.max_by(|a, b| a.2.total_cmp(&b.2)) else {
-        return Err(AnalysisError::NoFrequencies);
-    };
-    let frequency = highest * options.shaft;
+    let highest = all.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(_, name, _)| name);
+    let (name, frequency) = (highest.unwrap_or("BPFI, where the bearing is not known,"), bands::highest(options));
     // Below: a band to demodulate that is twice as wide as the second harmonic, above three times the frequency.
     let needed = 2.0 * (bands::BROAD + bands::NARROWEST) * frequency;
     if fs < needed {

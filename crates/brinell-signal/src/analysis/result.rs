@@ -163,10 +163,15 @@ impl Analysis {
 
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
-        match self.unexplained() {
-            Some(_) => Verdict::CannotTell,
-            None => self.by_lines(),
+        match self.by_lines() {
+            Verdict::NothingFound if self.unexplained().is_some() || self.has_no_bearing() => Verdict::CannotTell,
+            by_lines => by_lines,
         }
+    }
+
+    /// Whether the bearing is not known: its lines are sought as a comb of any frequency.
+    pub fn has_no_bearing(&self) -> bool {
+        self.options.orders.is_empty()
     }
 
     /// Impacts or a level that no line explains, where lines leave nothing open.

@@ -176,6 +176,27 @@ impl KnownBearing {
         }
     }
 
+    /// Those that have each of the `orders` as BPFO, BPFI or 2 BSF over the shaft's frequency, to a relative `tolerance`: the nearest first, with the
+    /// names of these frequencies and their orders in pure rolling.
+    pub fn struck_at(orders: &[f64], tolerance: f64) -> Vec<(Self, Vec<(&'static str, f64)>)> {
+        let off = |order: f64, own: f64| (order / own - 1.0).abs();
+        let has = |known: Self| {
+            let (own, _) = known.orders().ok()?;
+            let nearest = |order: f64| {
+                let impacts = own.defect_frequencies().filter(|(_, name, _)| !["BSF", "FTF"].contains(name));
+                let near = impacts.map(|(_, name, own)| (name, own)).filter(|(_, own)| off(order, *own) <= tolerance);
+                near.min_by(|a, b| off(order, a.1).total_cmp(&off(order, b.1)))
+            };
+            Some((known, orders.iter().copied().map(nearest).collect::<Option<Vec<_>>>()?))
+        };
+        let farthest = |(_, found): &(Self, Vec<(&str, f64)>)| {
+            orders.iter().zip(found).map(|(order, (_, own))| off(*order, *own)).fold(0.0, f64::max)
+        };
+        let mut all: Vec<_> = Self::all().filter_map(has).collect();
+        all.sort_by(|a, b| farthest(a).total_cmp(&farthest(b)));
+        all
+    }
+
     /// Its orders, and where they come from: also how they were estimated, where they were.
     ///
     /// # Errors
@@ -254,6 +275,18 @@ mod tests {
             let words = KnownBearing::named(name).unwrap_err();
             assert!(words.contains("the number of rolling elements, their diameter"), "{words}");
         }
+    }
+
+    #[test]
+    fn prop_every_known_bearing_is_among_those_with_its_frequencies() {
+        for known in KnownBearing::all() {
+            let (own, _) = known.orders().unwrap();
+            let given: Vec<f64> = [own.bpfo, own.bpfi, own.bsf.map(|o| 2.0 * o)].into_iter().flatten().collect();
+            let found = KnownBearing::struck_at(&given, 1e-3);
+            assert!(found.iter().any(|(one, _)| one.name() == known.name()), "{}", known.name());
+            assert!(found.iter().all(|(_, frequencies)| frequencies.len() == given.len()));
+        }
+        assert!(KnownBearing::struck_at(&[150.0], 0.02).is_empty());
     }
 
     #[test]

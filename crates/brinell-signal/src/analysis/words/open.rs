@@ -30,8 +30,15 @@ pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
         ));
         return;
     }
-    if let Some(elsewhere) = &analysis.elsewhere {
-        text.push(other_lines(analysis, elsewhere));
+    match &analysis.elsewhere {
+        Some(comb) if analysis.has_no_bearing() => text.push(of_unknown(analysis, comb)),
+        Some(elsewhere) => text.push(other_lines(analysis, elsewhere)),
+        None if analysis.has_no_bearing() => text.push(
+            "Cannot tell: no bearing is given, and no comb of lines is as high and as deep as damage of a race makes it. Damage of a rolling element or the \
+             cage is not sought without a bearing."
+                .into(),
+        ),
+        None => {}
     }
     text.extend(analysis.hiding_drift().map(|drift| hidden_by(analysis, drift)));
     let open = || (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
@@ -54,13 +61,21 @@ pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
 fn not_explained(analysis: &Analysis, what: Unexplained) -> String {
     match what {
         Unexplained::Impacts(kurtosis, above) => format!(
-            "Cannot tell: the record has impacts (kurtosis {}{}, {}) that no line of this bearing explains: damage too weak to call, another part, another \
-             bearing than the one given, or a wrong speed.",
+            "{} (kurtosis {}{}, {}) that {}",
+            match analysis.has_no_bearing() {
+                true => "The record has impacts",
+                false => "Cannot tell: the record has impacts",
+            },
             digits::short(kurtosis, 3),
             above.map_or(String::new(), |low| format!(" above {low:.0} Hz")),
             match analysis.kurtosis_beside {
                 Some([_, healthy]) => format!("{} in the healthy record", digits::short(healthy, 3)),
                 None => "3 for noise".into(),
+            },
+            match analysis.has_no_bearing() {
+                true => "no comb explains.",
+                false =>
+                    "no line of this bearing explains: damage too weak to call, another part, another bearing than the one given, or a wrong speed.",
             }
         ),
         Unexplained::Level(growth) => format!(
@@ -171,6 +186,17 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
     }
 }
 
+/// A comb of lines where nobody knows the bearing.
+fn of_unknown(analysis: &Analysis, comb: &Elsewhere) -> String {
+    format!(
+        "Cannot tell which part: no bearing is given. A comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, as damage of a \
+         race would; blades, gears or a coupling may have one too.",
+        comb.frequency,
+        comb.frequency / analysis.shaft,
+        100.0 * comb.modulation,
+    )
+}
+
 /// Lines that no frequency of this bearing explains.
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     // The shaft's own lines tell its speed.
@@ -235,7 +261,7 @@ impl Analysis {
     /// At which speeds a comb at no frequency of the bearing would be one of damage, in a sentence; `None` where something tells the speed.
     pub fn speeds_of_comb(&self) -> Option<String> {
         let elsewhere = self.elsewhere.as_ref().filter(|e| e.every.is_none())?;
-        if self.has_record_of_speed() || lines_agree(self) {
+        if self.has_record_of_speed() || lines_agree(self) || self.has_no_bearing() {
             return None;
         }
         Some(speeds_if_its(self, elsewhere))
