@@ -100,7 +100,7 @@ fn regress_overrides_are_checked_like_the_file() {
     // Names of bearings that are digits need no quotes.
     brinell(folder.path(), &["init", "b.toml", "--template", "ball"]).exits(0);
     let args = ["check", "b.toml", "--set", "bearing.preset=6206"];
-    brinell(folder.path(), &args).exits(0).says(&["Bearing   6206: 1 row(s) of 9 balls"]);
+    brinell(folder.path(), &args).exits(0).says(&["Bearing   6206: 1 row of 9 balls"]);
     set("nonsense").exits(2).complains(&["--set nonsense: expected KEY=VALUE", "--set operation.speed_rpm=3000"]);
     set("=3").exits(2).complains(&["expected KEY=VALUE"]);
     set("operation.speed_rpm=fast").exits(2).complains(&["a number in r/min", "override"]);

@@ -32,7 +32,7 @@ fn prop_every_command_finds_bearings_however_they_are_written() {
                 .replace("length_mm = 2.0, width_mm = 4.0", "length_mm = 1.0, width_mm = 1.0"),
         )
         .unwrap();
-        brinell(here, &["check", "s.toml"]).exits(0).says(&[&format!("{found}: 1 row(s)")]);
+        brinell(here, &["check", "s.toml"]).exits(0).says(&[&format!("{found}: 1 row")]);
         brinell(here, &["init", "--bearing", name]).exits(0).says(&[found]);
     }
     for args in [

@@ -44,4 +44,9 @@ fn prop_a_ratio_of_a_scenario_to_itself_survives_and_is_one() {
     for ratio in ratios {
         assert_eq!([&ratio["value"], &ratio["low"], &ratio["high"]].map(|x| x.as_f64().unwrap()), [1.0; 3], "{ratio}");
     }
+    // On the page and in the table, too.
+    let page = std::fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
+    assert!(page.contains("What assumed values do to the ratios"));
+    let table = std::fs::read_to_string(folder.path().join("out/compare.csv")).unwrap();
+    assert!(table.lines().next().unwrap().ends_with("same.ratio.assumed_low,same.ratio.assumed_high"));
 }

@@ -5,7 +5,7 @@ use crate::curves::Curves;
 use crate::outcome::{self, Outcome, card, counts};
 use crate::reproduction::Reproduction;
 use crate::request::Request;
-use crate::{BASE, Basis, Length, Verdict};
+use crate::{BASE, Basis, EXPERIMENTS, Length, Verdict};
 use crate::{believe, figures, survives};
 use brinell::made_by::MadeBy;
 use brinell::scenario::{Laws, Scenario};
@@ -98,9 +98,13 @@ pub(crate) fn study(
             all
         }
     };
-    let experiments = request.experiments.iter();
-    chapters
-        .extend(experiments.map(|e| figures::chapter(e, request.laws, &reproduction.numbers, &curves, &plan).folded()));
+    let figures =
+        request.experiments.iter().map(|e| figures::chapter(e, request.laws, &reproduction.numbers, &curves, &plan));
+    // Figures that were asked for are what the page is opened for.
+    match request.experiments.len() < EXPERIMENTS.len() {
+        true => chapters = figures.chain(chapters).collect(),
+        false => chapters.extend(figures.map(Chapter::folded)),
+    }
     if let Some(sensitivity) = &reproduction.sensitivity {
         chapters.extend(sensitivity.chapters());
     }
@@ -163,10 +167,19 @@ fn lead(request: &Request, outcomes: &[Outcome]) -> String {
         1 => " by these short runs (without --quick more is decided)",
         _ => "",
     };
+    let others = [(shapes, "shapes"), (kinematics, "kinematics and slip")];
+    let others: Vec<String> = (others.into_iter())
+        .filter(|(held, _)| !held.ends_with(" of 0"))
+        .map(|(held, of)| format!("{held} about {of}"))
+        .collect();
+    let others = match others.is_empty() {
+        true => String::new(),
+        false => format!(" Of claims that are not dynamic {} are reproduced.", others.join(" and ")),
+    };
     format!(
         "{dynamics} dynamic claims reproduced: {} do not hold, {} hold in part, {} are not decided{quick}. Why: the paper does not state supports, cage \
          contact, oil film, load ramp and filter, which decide many of them, and its own sentences contradict each other in places; each claim says what \
-         it hangs on. Of claims that are not dynamic {shapes} about shapes and {kinematics} about kinematics and slip are reproduced.{}",
+         it hangs on.{others}{}",
         of(Verdict::Fails),
         of(Verdict::Partly),
         of(Verdict::Undecided),

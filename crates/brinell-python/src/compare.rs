@@ -44,7 +44,7 @@ impl Comparison {
 
     /// Columns of `compare.csv`: name, unit, cells.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        table(py, &sides_table(&self.sides, &self.compared))
+        table(py, &sides_table(&self.sides, &self.compared, &[]))
     }
 
     /// What `compare.json` holds.
@@ -55,7 +55,7 @@ impl Comparison {
     /// What `compare.html` holds.
     fn to_html(&self, py: Python<'_>) -> String {
         let all = results(&self.runs);
-        py.detach(|| html(&Page::of_runs(&self.sides, &all, &self.compared, self.warnings(&all))))
+        py.detach(|| html(&Page::of_runs(&self.sides, &all, &self.compared, &[], self.warnings(&all))))
     }
 }
 

@@ -211,7 +211,7 @@ fn estimate(cell: &Estimate) -> String {
     }
 }
 
-pub(crate) fn assumptions(page: &mut String, all: &[Provenance]) {
+pub(crate) fn assumptions(page: &mut String, all: &[Provenance], has_spread: bool) {
     if all.is_empty() {
         return none(page, "No assumptions are listed.");
     }
@@ -219,8 +219,9 @@ pub(crate) fn assumptions(page: &mut String, all: &[Provenance]) {
     let _ = writeln!(
         page,
         "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named. What the assumed ones do to the levels: \
-         <code>brinell run --spread</code>; how far to trust a number: the page <em>How far to trust a number</em> of the documentation.</p>",
-        all.len()
+         {}; how far to trust a number: the page <em>How far to trust a number</em> of the documentation.</p>",
+        all.len(),
+        if has_spread { "the section before this one" } else { "<code>brinell run --spread</code>" }
     );
     let part = |estimated: bool| all.iter().filter(move |a| a.assumed == estimated);
     if estimated > 0 {

@@ -1,6 +1,6 @@
 //! Of `brinell check`: a bearing.
 
-use crate::say::{plain_number, say, short, significant};
+use crate::say::{plain_number, plural, say, short, significant};
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::defect::wrap;
@@ -22,9 +22,9 @@ pub(super) fn bearing(s: &Scenario) {
         Element::Ball => format!("of {} mm", plain_number(b.roller_diameter_mm)),
     };
     say!(
-        "Bearing   {}{} row(s) of {} {}s {size} on a {} mm pitch circle",
+        "Bearing   {}{} of {} {}s {size} on a {} mm pitch circle",
         b.preset.as_ref().map_or(String::new(), |p| format!("{p}: ")),
-        b.rows,
+        plural(b.rows, "row"),
         b.rollers_per_row,
         element,
         plain_number(b.pitch_diameter_mm),

@@ -34,7 +34,7 @@ pub(crate) struct CompareArgs {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Also run every value that both sides assume at both ends of its plausible range, in both at once, and say which
-    /// ratios survive it: some 30 runs a side
+    /// ratios stay on one side of 1: some 30 runs a side
     #[arg(long)]
     pub(crate) spread: bool,
     /// Folder for the results [default: out/compare-STEM, STEM being the baseline's file name without ending]

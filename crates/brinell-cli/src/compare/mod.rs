@@ -17,7 +17,9 @@ use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare};
 use brinell_report::Page;
-use brinell_study::campaign::{self, Compared, Level, Side, run_all, sides_json, sides_scenarios, sides_table};
+use brinell_study::campaign::{
+    self, Compared, Level, Side, band_of, run_all, sides_json, sides_scenarios, sides_table,
+};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -61,19 +63,19 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
-    let survives = if args.spread { spread::of(args, &read, &all, &stop) } else { None };
-    if args.spread && survives.is_none() {
+    let ratios = if args.spread { spread::of(args, &read, &all, &stop) } else { Some(Vec::new()) };
+    let Some(ratios) = ratios else {
         complain!("{NOTHING_WRITTEN}");
         return Ok(ExitCode::FAILURE);
-    }
+    };
     let doubts = brinell_report::doubts(sides, &all);
     let warnings = [&beforehand[..], &doubts].concat();
     let mut json = (COMPARISON, sides_json(sides, &compared, &warnings));
-    if let Some(survives) = &survives {
-        json.1["spread"] = spread::json(sides, survives);
+    if args.spread {
+        json.1["spread"] = spread::json(sides, &ratios);
     }
-    let report = Page::of_runs(sides, &all, &compared, warnings);
-    let table = sides_table(sides, &compared);
+    let report = Page::of_runs(sides, &all, &compared, &ratios, warnings);
+    let table = sides_table(sides, &compared, &ratios);
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::made_by(brinell::VERSION, made_by::commit());
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
@@ -88,7 +90,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     }
     if !args.quiet {
         doubts.iter().for_each(|warning| complain!("{warning}"));
-        tell(sides, &compared, survives.as_deref().unwrap_or_default());
+        tell(sides, &compared, &ratios);
         say::wrote(&written);
     }
     Ok(ExitCode::SUCCESS)
@@ -125,7 +127,7 @@ fn run(args: &CompareArgs, sides: &[Side], stop: &AtomicBool) -> Option<Vec<RunR
 }
 
 /// What matters most of the comparison.
-fn tell(sides: &[Side], compared: &[Compared], survives: &[Vec<Level>]) {
+fn tell(sides: &[Side], compared: &[Compared], ratios: &[Vec<Level>]) {
     let headline = brinell_report::compared_headline(sides, compared);
     for (k, side) in sides.iter().enumerate().skip(1) {
         if headline.iter().all(|one| one.ratios[k].is_none()) {
@@ -141,7 +143,7 @@ fn tell(sides: &[Side], compared: &[Compared], survives: &[Vec<Level>]) {
             let interval = ratio.interval.map_or(String::new(), |(low, high)| {
                 format!(" (95 %, scatter only: {} x to {} x)", short(low, 3), short(high, 3))
             });
-            let assumed = survives.get(k - 1).and_then(|levels| spread::words(levels, &one.name));
+            let assumed = band_of(ratios, k, &one.name).map(spread::words);
             say!("  {}{over}: {} x{interval}{}", one.name, short(ratio.value, 3), assumed.unwrap_or_default());
         }
     }

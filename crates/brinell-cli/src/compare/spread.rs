@@ -1,4 +1,4 @@
-//! `brinell compare --spread`: whether a ratio survives what is assumed.
+//! `brinell compare --spread`: what assumed values do to a ratio.
 
 use super::CompareArgs;
 use super::sides::Sides;
@@ -42,15 +42,10 @@ pub(super) fn of(args: &CompareArgs, read: &Sides, runs: &[&RunResult], stop: &A
 }
 
 /// A ratio's band in words, and whether it stays on its side of 1.
-pub(super) fn words(levels: &[Level], name: &str) -> Option<String> {
-    let level = levels.iter().find(|level| level.name == name)?;
+pub(super) fn words(level: &Level) -> String {
     let [low, high] = level.band;
-    let survives = match (low > 1.0, high < 1.0) {
-        (false, false) => "does not survive it",
-        _ => "survives it",
-    };
     let first = level.bars.first().map_or(String::new(), |bar| format!(", {} first", bar.key));
-    Some(format!("; {} x to {} x by what is assumed{first}: {survives}", short(low, 3), short(high, 3)))
+    format!("; {} x to {} x by what is assumed{first}: {}", short(low, 3), short(high, 3), level.beside_one())
 }
 
 /// The ratios of each side.

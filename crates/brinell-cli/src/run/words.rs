@@ -11,7 +11,7 @@ use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
 /// How far results can be trusted.
-const TRUST: &str = "  frequencies hold; levels depend on assumed values: --spread tells how much";
+const TRUST: &str = "  frequencies hold but for slip of the cage; levels depend on assumed values";
 
 /// A few lines on what came out.
 pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written: &[PathBuf]) -> Vec<String> {
@@ -54,7 +54,8 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     for path in written {
         printed.push(format!("  wrote {}", path.display()));
     }
-    printed.push(TRUST.into());
+    let how_much = if spread.is_some() { ", as above" } else { ": --spread tells how much" };
+    printed.push(format!("{TRUST}{how_much}"));
     printed
 }
 

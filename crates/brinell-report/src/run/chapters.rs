@@ -336,8 +336,8 @@ pub fn spread(levels: &[Level]) -> Chapter {
 }
 
 /// What was given and what was assumed.
-pub fn assumptions(all: &[Provenance]) -> Chapter {
-    Chapter::of("assumptions", "Assumptions", Piece::written(|page| values(page, all)))
+pub fn assumptions(all: &[Provenance], has_spread: bool) -> Chapter {
+    Chapter::of("assumptions", "Assumptions", Piece::written(|page| values(page, all, has_spread)))
 }
 
 /// Momentum and energy, what the solver did, and the scenario.

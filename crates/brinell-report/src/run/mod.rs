@@ -13,7 +13,7 @@ mod tables;
 
 use crate::data::Signals;
 use crate::frame::THINNED;
-use crate::number::short;
+use crate::number::{plural, short};
 use crate::page::Page;
 use brinell::made_by::MadeBy;
 use brinell::plausibility::observed;
@@ -53,11 +53,11 @@ impl Page {
             chapters::load(load_distribution(parts), crate::defects::along_roller(&observed(scenario))),
             chapters::motion(motion(parts)),
             chapters::orbit(cage_orbits(parts)),
-            chapters::indicators(&indicators(parts)),
+            chapters::indicators(&indicators(parts, spread.is_some())),
             chapters::slip(&slip(parts), slip_rows(parts)),
         ]);
         all.extend(spread.map(chapters::spread));
-        all.push(chapters::assumptions(&parts.loaded.provenance));
+        all.push(chapters::assumptions(&parts.loaded.provenance, spread.is_some()));
         all.extend(chapters::appendices(&audits(parts), &solver_work(parts), &parts.loaded.to_toml()));
         all.push(chapters::headline(&signals));
         Self {
@@ -112,7 +112,13 @@ fn speed(scenario: &Scenario) -> String {
 fn subtitle(scenario: &Scenario) -> String {
     let name = |b: &Bearing| {
         b.preset.clone().unwrap_or_else(|| {
-            format!("{} rows of {} {}s, {} mm pitch", b.rows, b.rollers_per_row, b.element.word(), b.pitch_diameter_mm)
+            format!(
+                "{} of {} {}s, {} mm pitch",
+                plural(b.rows, "row"),
+                b.rollers_per_row,
+                b.element.word(),
+                b.pitch_diameter_mm
+            )
         })
     };
     let bearing = match &scenario.machine {

@@ -150,7 +150,7 @@ pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<
         .collect()
 }
 
-pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
+pub(super) fn indicators(parts: &Parts, has_spread: bool) -> IndicatorTable {
     let cell = |channel: &ChannelStatistics, indicator: Indicator| {
         let unit = indicator.unit(channel.unit);
         match channel.blocks.estimate(indicator) {
@@ -178,10 +178,11 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         (!r.channel.starts_with("sensor") && r.channel != parts.findings.sensor, r.kind == "instantaneous")
     });
     let of = match parts.findings.of_sensor().is_some_and(|c| c.blocks.revolutions() == 0) {
-        true => "No whole revolution was analysed: averages and peaks are those of the record.",
-        false => {
-            "Averages over whole revolutions, in brackets their 95 % intervals, scatter only: what is assumed is not in them (`brinell run --spread`); peaks are those of a revolution."
-        }
+        true => "No whole revolution was analysed: averages and peaks are those of the record.".to_owned(),
+        false => format!(
+            "Averages over whole revolutions, in brackets their 95 % intervals, scatter only: what is assumed is not in them ({}); peaks are those of a revolution.",
+            if has_spread { "the section on it has its bands" } else { "`brinell run --spread`" }
+        ),
     };
     IndicatorTable {
         columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),

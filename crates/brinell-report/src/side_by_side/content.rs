@@ -15,28 +15,37 @@ use brinell::plausibility::after;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
 use brinell_study::campaign::{
-    self, BANDWIDTHS, Beforehand, Compared, Differing, Misses, Side, bandwidth, count, of_results,
+    self, BANDWIDTHS, Beforehand, Compared, Differing, Level, Misses, Side, band_of, bandwidth, count, of_results,
 };
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
 
 impl Page {
-    /// What the page of a comparison shows: `compare.html` of `brinell compare`. `warnings`: those of [`beforehand`] and
-    /// [`doubts`].
+    /// What the page of a comparison shows: `compare.html` of `brinell compare`. `spread`: of each side but the baseline its ratios with their
+    /// bands by what is assumed, empty where that was not asked. `warnings`: those of [`beforehand`] and [`doubts`].
     ///
     /// # Panics
     /// Without a run, or with more or fewer sides than runs.
-    pub fn of_runs(sides: &[Side], runs: &[&RunResult], compared: &[Compared], warnings: Vec<String>) -> Self {
+    pub fn of_runs(
+        sides: &[Side],
+        runs: &[&RunResult],
+        compared: &[Compared],
+        spread: &[Vec<Level>],
+        warnings: Vec<String>,
+    ) -> Self {
         assert!(!runs.is_empty() && runs.len() == sides.len(), "{} sides of {} runs", sides.len(), runs.len());
         let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
         let chapter = |id: &str, title: &str, pieces| Chapter::new(id, title, title, pieces);
-        let mut chapters = vec![
-            Chapter::table("differences", "What differs", differing(sides)),
+        let mut chapters = vec![Chapter::table("differences", "What differs", differing(sides))];
+        if !spread.is_empty() {
+            chapters.push(Chapter::table("spread", "What is assumed", bands(&names, spread)));
+        }
+        chapters.extend([
             chapter("waveform", "Sensor acceleration", vec![waveform(&names, runs)]),
             chapter("spectrum", "Spectrum", vec![spectrum(&names, runs)]),
             chapter("envelope-spectrum", "Envelope spectrum", vec![envelope(&names, runs)]),
-        ];
+        ]);
         let defects = runs.iter().map(|run| run.scenario.defects.len()).max();
         for defect in 0..defects.unwrap_or(0) {
             let (n, called) = (defect + 1, called(runs, defect));
@@ -56,7 +65,7 @@ impl Page {
         for (id, title, wanted) in TABLES {
             let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
             if !rows.is_empty() {
-                chapters.push(Chapter::table(id, title, numbers(id, title, &names, &rows)));
+                chapters.push(Chapter::table(id, title, numbers((id, title), &names, &rows, !spread.is_empty())));
             }
         }
         let headlines = compared_headline(sides, compared);
@@ -65,8 +74,8 @@ impl Page {
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: MadeBy::now().to_string(),
             warnings,
-            lead: lead(&names, &headlines),
-            facts: facts(&names, &headlines),
+            lead: lead(&names, &headlines, spread),
+            facts: facts(&names, &headlines, spread),
             chapters,
             footer: THINNED.into(),
             ..Self::default()
@@ -97,10 +106,14 @@ const TABLES: [Wanted; 3] = [
 ];
 
 /// The first number in a sentence: "RMS of sensor_ax in b is 0.368 (0.363 to 0.373), in c 1.2 (1.1 to 1.3) times that in a."
-fn lead(names: &[String], headlines: &[Headline]) -> String {
+fn lead(names: &[String], headlines: &[Headline], spread: &[Vec<Level>]) -> String {
     let told = headlines.iter().find_map(|one| {
-        let ratios = names.iter().zip(&one.ratios);
-        let ratios: Vec<_> = ratios.filter_map(|(name, ratio)| Some((name, with_interval((*ratio)?)))).collect();
+        let ratios = names.iter().enumerate().zip(&one.ratios);
+        let told = |ratio: Ratio, k: usize| match band(spread, k, &one.name) {
+            Some(band) => format!("{} ({band})", short(ratio.value, 3)),
+            None => with_interval(ratio),
+        };
+        let ratios: Vec<_> = ratios.filter_map(|((k, name), ratio)| Some((name, told((*ratio)?, k)))).collect();
         let ([(name, first), rest @ ..], words) = (&ratios[..], &one.words) else {
             return None;
         };
@@ -110,17 +123,43 @@ fn lead(names: &[String], headlines: &[Headline]) -> String {
     told.unwrap_or_default()
 }
 
-fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
+/// The band of a run's ratio in words.
+fn band(spread: &[Vec<Level>], run: usize, name: &str) -> Option<String> {
+    let [low, high] = band_of(spread, run, name)?.band.map(|end| short(end, 3));
+    Some(format!("{low} to {high} by what is assumed"))
+}
+
+/// What assumed values do to the ratios of each run.
+fn bands(names: &[String], spread: &[Vec<Level>]) -> Table {
+    let row = |name: &String, level: &Level| {
+        let [low, high] = level.band.map(|end| short(end, 3));
+        let first = level.bars.first().map_or("–".into(), |bar| bar.key.clone());
+        vec![level.name.clone(), name.clone(), short(level.value, 3), low, high, level.beside_one().into(), first]
+    };
+    let of = |(name, levels): (&String, &Vec<Level>)| levels.iter().map(|level| row(name, level)).collect::<Vec<_>>();
+    Table::new(
+        "What assumed values do to the ratios",
+        ["Number", "Run", "#Ratio", "#From", "#To", "The band lies", "Largest effect"],
+        names.iter().skip(1).zip(spread).flat_map(of),
+        format!(
+            "Over {}: every assumed value at both ends of its plausible range in both runs at once, one value at a time. The band adds their changes as squares of \
+             logarithms; it is no confidence interval, for the ranges are judgement.",
+            names[0]
+        ),
+    )
+}
+
+fn facts(names: &[String], headlines: &[Headline], spread: &[Vec<Level>]) -> Vec<Fact> {
     let mut facts = Vec::new();
     for one in headlines.iter().take(8) {
-        let ratios = names.iter().zip(one.ratios.iter().zip(&one.over));
-        let ratios: Vec<(String, Ratio)> = ratios
-            .filter_map(|(name, (ratio, over))| {
+        let ratios = names.iter().enumerate().zip(one.ratios.iter().zip(&one.over));
+        let ratios: Vec<(String, Ratio, Option<String>)> = ratios
+            .filter_map(|((k, name), (ratio, over))| {
                 let over = over.as_ref().map_or(String::new(), |(of, to)| format!(" ({of} over {to})"));
-                Some((format!("{name}{over}"), (*ratio)?))
+                Some((format!("{name}{over}"), (*ratio)?, band(spread, k, &one.name)))
             })
             .collect();
-        let [(name, first), rest @ ..] = &ratios[..] else {
+        let [(name, first, assumed), rest @ ..] = &ratios[..] else {
             continue;
         };
         let mut note = format!("of {}", names[0]);
@@ -129,8 +168,10 @@ fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
             let [low, high] = [ends.0, ends.1].map(|end| short(end, 3));
             note = format!("{note}; 95 %, scatter only: {low} to {high}");
         }
-        for (name, more) in rest {
+        note.extend(assumed.iter().map(|band| format!("; {band}")));
+        for (name, more, assumed) in rest {
             note = format!("{note}; {name}: {}", with_interval(*more));
+            note.extend(assumed.iter().map(|band| format!(", {band}")));
         }
         facts.push(Fact::new(&one.words, format!("{name}: {value} ×"), "", note));
     }
@@ -248,7 +289,7 @@ fn cut(text: &str) -> String {
 }
 
 /// Values of each run, and ratios to the baseline's.
-fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table {
+fn numbers((id, title): (&str, &str), names: &[String], rows: &[&Compared], has_bands: bool) -> Table {
     let (of_channels, measured) = (id == INDICATORS, id != AUDITS);
     let mut columns = vec!["Quantity".to_owned()];
     columns.extend(of_channels.then(|| "Signal".to_owned()));
@@ -277,9 +318,11 @@ fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table
             "What the laws of conservation leave over, and the solver's work, of each run.",
         );
     }
-    let mut note = "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals, scatter only: what is assumed is not in them (`brinell compare --spread`); peaks are those of a revolution. \
-         Ratios are of the values beside them; their intervals suppose runs that scatter independently."
-        .to_owned();
+    let mut note = format!(
+        "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals, scatter only: what is assumed is not in them ({}); peaks are those of a revolution. \
+         Ratios are of the values beside them; their intervals suppose runs that scatter independently.",
+        if has_bands { "the table of what is assumed has it" } else { "`brinell compare --spread`" }
+    );
     if of_channels {
         note += " The anti-alias filter takes away what lies above half the sample rate: instantaneous values hold all of it.";
     }

@@ -39,4 +39,4 @@ pub use run::run_all;
 #[doc(hidden)]
 pub use sides::{Differing, Side, SidesError, check_labels, differing, sides_json, sides_scenarios, sides_table};
 #[doc(hidden)]
-pub use spread::{Assumed, Bar, Ends, Level, SPREAD_MEANING, Spread, assumed, ratios, run_ends, run_spread};
+pub use spread::{Assumed, Bar, Ends, Level, SPREAD_MEANING, Spread, assumed, band_of, ratios, run_ends, run_spread};

@@ -3,6 +3,7 @@
 
 use super::Compared;
 use super::row::in_json;
+use super::spread::{Level, band_of};
 use brinell::document::{Loaded, Provenance};
 use brinell::made_by::MadeBy;
 use brinell::signal::{Written, objects};
@@ -16,6 +17,8 @@ static OWN: [&str; 2] = ["quantity", "unit"];
 /// Endings of the columns of each run, and of each but the baseline.
 static VALUE: [&str; 3] = ["", ".low", ".high"];
 static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
+/// By what is assumed, where that was asked.
+static ASSUMED: [&str; 2] = [".ratio.assumed_low", ".ratio.assumed_high"];
 
 /// One of the runs: what it is called, and its scenario.
 #[derive(Debug, Clone)]
@@ -73,7 +76,7 @@ pub fn check_labels(labels: &[String]) -> Result<(), SidesError> {
 /// Names of the table's columns.
 fn columns(labels: &[String]) -> impl Iterator<Item = String> {
     let of = |(k, label): (usize, &String)| {
-        let endings = VALUE.iter().chain(if k > 0 { &RATIO[..] } else { &[] });
+        let endings = VALUE.iter().chain(RATIO.iter().chain(&ASSUMED).filter(|_| k > 0));
         let names: Vec<String> = endings.map(|ending| format!("{label}{ending}")).collect();
         names
     };
@@ -81,8 +84,9 @@ fn columns(labels: &[String]) -> impl Iterator<Item = String> {
     own.chain(labels.iter().enumerate().flat_map(of))
 }
 
-/// A row a number: its value and interval in each run, and its ratio to the baseline's.
-pub fn sides_table(sides: &[Side], compared: &[Compared]) -> Table {
+/// A row a number: its value and interval in each run, and its ratio to the baseline's. `spread`: of each side but the baseline its ratios
+/// with their bands by what is assumed; empty where that was not asked.
+pub fn sides_table(sides: &[Side], compared: &[Compared], spread: &[Vec<Level>]) -> Table {
     let mut table = Table::default();
     let words = |of: fn(&Compared) -> &str| Cells::Words(compared.iter().map(|c| Some(of(c).to_owned())).collect());
     table.push(Column::new(OWN[0], "", ""), words(|c| &c.name));
@@ -101,6 +105,9 @@ pub fn sides_table(sides: &[Side], compared: &[Compared]) -> Table {
             push(named(RATIO[0]), &|c| Some(c.ratios[k]?.value));
             push(named(RATIO[1]), &|c| Some(c.ratios[k]?.interval?.0));
             push(named(RATIO[2]), &|c| Some(c.ratios[k]?.interval?.1));
+            for (end, ending) in ASSUMED.iter().enumerate().filter(|_| !spread.is_empty()) {
+                push(named(ending), &|c| Some(band_of(spread, k, &c.name)?.band[end]));
+            }
         }
     }
     table

@@ -69,6 +69,23 @@ pub struct Level {
     pub bars: Vec<Bar>,
 }
 
+impl Level {
+    /// Where the band of a ratio lies.
+    pub fn beside_one(&self) -> &'static str {
+        match self.band {
+            [low, _] if low > 1.0 => "above 1 throughout",
+            [_, high] if high < 1.0 => "below 1 throughout",
+            [low, high] if low == 1.0 && high == 1.0 => "1 throughout",
+            _ => "on both sides of 1",
+        }
+    }
+}
+
+/// Of the ratios of each run but the baseline, run 0, that of a run's number.
+pub fn band_of<'a>(ratios: &'a [Vec<Level>], run: usize, name: &str) -> Option<&'a Level> {
+    ratios.get(run.checked_sub(1)?)?.iter().find(|level| level.name == name)
+}
+
 fn low_high<S: Serializer>(ends: &[f64; 2], to: S) -> Result<S::Ok, S::Error> {
     to.collect_map([("low", ends[0]), ("high", ends[1])])
 }

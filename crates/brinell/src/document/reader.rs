@@ -330,12 +330,21 @@ fn unknown(
     let mut meant = None;
     let home = |section: &str| match section {
         "" => "the top of the file, before any section".to_string(),
+        "defects" => "[[defects]]".to_string(),
         section => format!("[{section}]"),
     };
     let elsewhere = |wanted: &str| {
-        let sections = vocabulary.iter().filter(|(_, name)| name == wanted);
-        let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
-        homes.join(" or ")
+        let mut sections: Vec<&str> =
+            vocabulary.iter().filter(|(_, name)| name == wanted).map(|(section, _)| section.as_str()).collect();
+        // What is likeliest first.
+        sections.sort_by_key(|section| section.matches('.').count());
+        // The path of one of several tables has a number.
+        let path = match sections.first() {
+            Some(&"defects") => format!(" (its path is defects.0.{wanted})"),
+            _ => String::new(),
+        };
+        let homes: Vec<String> = sections.into_iter().map(home).collect();
+        homes.join(" or ") + &path
     };
     let boundary = boundary_dimension(name).filter(|_| frame.path == "bearing");
     let hint = if let Some((raceway, what)) = boundary {

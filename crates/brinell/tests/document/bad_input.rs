@@ -30,6 +30,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("pitch_diameter_mm", "outside_diameter_mm = 22", "bearing.outside_diameter_mm", "`outer_raceway_diameter_mm`", ""),
         ("pitch_diameter_mm", "bore_mm = 8", "bearing.bore_mm", "`inner_raceway_diameter_mm`", ""),
         ("pitch_diameter_mm", "speed_rpm = 1", "bearing.speed_rpm", "it belongs in [operation]", ""),
+        ("pitch_diameter_mm", "depth_um = 1", "bearing.depth_um", "it belongs in [[defects]] or [defects.shape.profile] or [defects.shape.depth_map] (its path is defects.0.depth_um)", ""),
         ("pitch_diameter_mm", "viscosity = 1", "bearing.viscosity", "did you mean `viscosity_pa_s` in [lubricant]", ""),
         ("pitch_diameter_mm", "pitch_diameter_mm = \"49\"", "bearing.pitch_diameter_mm", "no unit: a string needs one; without quotes the number is in mm", "a string with a unit: mm"),
         ("pitch_diameter_mm", "pitch_diameter_mm = 1979-05-27", "bearing.pitch_diameter_mm", "found a date", "> 0 mm"),
