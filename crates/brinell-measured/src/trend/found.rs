@@ -5,8 +5,8 @@ use super::limit::{Limit, NoReach, Side};
 use super::when::Times;
 use crate::problem::Problem;
 use brinell::signal::estimate::NORMAL;
-use brinell::signal::parallel;
 use brinell::signal::trend::{Change, Course, FEWEST, Kind, Outcome, changes};
+use brinell::signal::{parallel, short};
 use serde_json::Value;
 
 /// Probability that any of a trend's levels is said to change, if none does.
@@ -191,6 +191,25 @@ impl Followed {
     /// The value at a record of the fit, in the level's unit.
     pub fn value(&self, y: f64) -> f64 {
         if self.level.by_factors { y.exp() } else { y }
+    }
+
+    /// The last records that leap off the course of those before, in words.
+    pub fn aside(&self) -> Option<String> {
+        let y = &self.course.y;
+        let count = self.outcome.as_ref().map(|outcome| outcome.aside).filter(|count| (1..y.len()).contains(count))?;
+        let unit = self.level.unit_behind();
+        let values: Vec<String> =
+            y[y.len() - count..].iter().map(|y| format!("{}{unit}", short(self.value(*y), 3))).collect();
+        let side = if y[y.len() - 1] > y[y.len() - 1 - count] { "above" } else { "below" };
+        Some(match count {
+            1 => {
+                format!("the last record, {}, lies far {side} the course of those before and is in no test", values[0])
+            }
+            _ => format!(
+                "the last {count} records, {}, lie far {side} the course of those before and are in no test",
+                values.join(" and ")
+            ),
+        })
     }
 
     /// How many of the last values are all above, or all below, as many of the first: a third of them.

@@ -53,6 +53,7 @@ impl Trend {
             "values": of.level.points.iter().map(|p| p.map(written)).collect::<Vec<_>>(),
             "says": self.words(of),
             "p": outcome.map(|outcome| outcome.p),
+            "last_records_aside": outcome.map(|outcome| outcome.aside),
             "changes": outcome.map(|outcome| outcome.changes.iter().map(|c| self.changed(of, c)).collect::<Vec<_>>()),
             "limits": of.limits.iter().map(limit).collect::<Vec<_>>(),
         })

@@ -124,7 +124,7 @@ impl Times {
         }
     }
 
-    /// A time for people: the date, or the number with its unit.
+    /// A time for people: the date, with its hour where those of records have one, or the number with its unit.
     pub fn text(&self, at: f64) -> String {
         let Some(first) = self.first else {
             return match self.unit {
@@ -135,8 +135,8 @@ impl Times {
         let seconds = at * self.unit.map_or(1.0, TimeUnit::seconds);
         let date = chrono::TimeDelta::try_milliseconds((1e3 * seconds).round() as i64)
             .and_then(|by| first.checked_add_signed(by));
-        let days_alone = date.is_some_and(|d| d.time() == chrono::NaiveTime::MIN)
-            && self.dates.iter().all(|d| d.time() == chrono::NaiveTime::MIN);
+        // What lies between two days is known to no hour.
+        let days_alone = self.dates.iter().all(|d| d.time() == chrono::NaiveTime::MIN);
         let close = self.dates.windows(2).any(|p| p[0].date() == p[1].date() && (p[1] - p[0]).num_minutes() < 2);
         let format = if days_alone {
             "%Y-%m-%d"

@@ -6,8 +6,15 @@ use brinell::signal::short;
 use brinell::signal::trend::{Change, FEWEST, Kind, Reach};
 
 impl Trend {
-    /// What is said of a level: each change, or that there is none.
+    /// What is said of a level: each change, or that there is none; and which of the last records are in neither.
     pub fn words(&self, of: &Followed) -> String {
+        let aside = of.aside().map_or(String::new(), |aside| {
+            format!("; {aside}: an odd record, or the beginning of a change that the next ones tell")
+        });
+        self.changes(of) + &aside
+    }
+
+    fn changes(&self, of: &Followed) -> String {
         let Some(outcome) = &of.outcome else {
             let few = format!("too few records to test for a change: {} of {FEWEST}", of.course.t.len());
             return match (of.level.by_factors, &of.course.y[..]) {
@@ -60,10 +67,21 @@ impl Trend {
                 sentences.insert(0, format!("{name} of the latest record is above its limit, {}{unit}.", limit.text()));
             }
         }
-        let changes = |of: &&Followed| of.outcome.as_ref().is_some_and(|outcome| !outcome.changes.is_empty());
+        let named = |which: &dyn Fn(&Followed) -> bool| -> Vec<&str> {
+            self.levels.iter().filter(|of| which(of)).map(|of| of.level.brief()).collect()
+        };
         let tested = self.levels.iter().any(|of| of.outcome.is_some());
-        let changed: Vec<&str> =
-            (self.levels.iter().filter(|of| of.level.by_factors).filter(changes)).map(|of| of.level.brief()).collect();
+        let changed = named(&|of| of.outcome.as_ref().is_some_and(|outcome| !outcome.changes.is_empty()));
+        let leaping = named(&|of| of.level.by_factors && of.aside().is_some());
+        if !leaping.is_empty() {
+            sentences.insert(
+                0,
+                format!(
+                    "The latest records lie far off the course of those before them: {}. Measure again soon.",
+                    leaping.join(", ")
+                ),
+            );
+        }
         match (changed.is_empty(), tested) {
             (false, _) => sentences.push(format!("Changed: {}.", changed.join(", "))),
             (true, true) => sentences.push("No level of the signal is shown to change.".into()),
@@ -115,6 +133,9 @@ impl Trend {
             |record: usize| format!("{} ({})", self.times.text(self.times.at[record]), self.records[record].file);
         let above = match (limit.first_above(), limit.first_surely_above()) {
             (None, _) => "no record is above".to_owned(),
+            (Some(first), None) if of.level.points.iter().flatten().all(|point| point.interval.is_none()) => {
+                format!("first above at {}", when(first))
+            }
             (Some(first), Some(sure)) if first == sure => format!("first above at {}", when(first)),
             (Some(first), Some(sure)) => {
                 format!("first above at {}, with its whole interval at {}", when(first), when(sure))
@@ -124,6 +145,9 @@ impl Trend {
         let reach = match limit.reach {
             Ok(reach) => format!("; {}", self.reach(&reach)),
             Err(NoReach::Above) => String::new(),
+            Err(NoReach::NoGrowth) if of.aside().is_some() => {
+                "; no rate leads there but that of the last records, which leap off the course of those before".into()
+            }
             Err(why) => format!("; {why}"),
         };
         format!("{} {}{unit}: {above}{reach}", of.level.called(), limit.text())

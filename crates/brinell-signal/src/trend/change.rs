@@ -41,6 +41,9 @@ pub struct Outcome {
     pub changes: Vec<Change>,
     /// Probability of the largest change by scatter alone; small without a change where scatter changes and the level does not.
     pub p: f64,
+    /// How many of the last records, one or two, leap off the course of those before them and are in no change: odd records, or the beginning of
+    /// a change that the next ones tell.
+    pub aside: usize,
 }
 
 /// Changes whose probability without a change is below `alpha`; `None` of fewer than [`FEWEST`] records. The same input gives the same
@@ -51,9 +54,10 @@ pub fn changes(course: &Course, alpha: f64) -> Option<Outcome> {
         return None;
     }
     let mut found = Vec::new();
-    let p = test(&course.calmed(), (0, n, Base::Level), alpha, DEPTH, &mut found);
+    let (calmed, aside) = course.calmed();
+    let p = test(&calmed, (0, n, Base::Level), alpha, DEPTH, &mut found);
     found.sort_by(|a: &Change, b: &Change| a.at.total_cmp(&b.at));
-    Some(Outcome { changes: found, p })
+    Some(Outcome { changes: found, p, aside })
 }
 
 fn test(course: &Course, part: (usize, usize, Base), alpha: f64, depth: usize, found: &mut Vec<Change>) -> f64 {
@@ -145,7 +149,7 @@ impl Change {
     pub fn reach(&self, course: &Course, limit: f64) -> Option<Reach> {
         let grows = self.kind == Kind::Growth && self.by.interval.is_some_and(|i| i.low > 0.0);
         let (from, to, base) = self.part;
-        let stretch = grows.then(|| Stretch::of(&course.calmed(), from, to).reweighted(&self.best))?;
+        let stretch = grows.then(|| Stretch::of(&course.calmed().0, from, to).reweighted(&self.best))?;
         let (t0, span) = (course.t[from], course.t[to - 1] - course.t[from]);
         let found = reach(&Profile::of(&stretch, base, Kind::Growth), limit)?;
         let time = |t: f64| t0 + span * t;

@@ -36,7 +36,9 @@ impl Course {
     /// Values that single records far off do not move: one beyond four deviations of those around it from the median of its two
     /// neighbours on either side gives way to this median (the identifier of F. R. Hampel). One or two at either end that leap off the course
     /// of the six beside them give way to that course. Steps of three records and growth stay as they are.
-    pub(super) fn calmed(&self) -> Self {
+    ///
+    /// And how many of the last gave way so: whether they are odd records or the beginning of something only the next ones tell.
+    pub(super) fn calmed(&self) -> (Self, usize) {
         const NEAR: usize = 2;
         const AROUND: usize = 6;
         let n = self.y.len();
@@ -52,15 +54,17 @@ impl Course {
             }
         }
         let usual = median(&off[inner]);
-        calm.calm_end(&(0..n).rev().collect::<Vec<_>>(), usual);
+        let aside = calm.calm_end(&(0..n).rev().collect::<Vec<_>>(), usual);
         calm.calm_end(&(0..n).collect::<Vec<_>>(), usual);
-        calm
+        (calm, aside)
     }
 
     /// Of the records in this order the first one or two, where they leap off the course of the next six. `usual` is the median deviation of all.
-    fn calm_end(&mut self, order: &[usize], usual: f64) {
+    /// How many did.
+    fn calm_end(&mut self, order: &[usize], usual: f64) -> usize {
+        let mut aside = 0;
         for leaps in [2, 1] {
-            let Some(beside) = order.get(leaps..leaps + BESIDE_AN_END) else { return };
+            let Some(beside) = order.get(leaps..leaps + BESIDE_AN_END) else { return aside };
             let slope = median(
                 &(beside.iter().enumerate())
                     .flat_map(|(k, a)| beside[k + 1..].iter().map(move |b| (*a, *b)))
@@ -86,8 +90,10 @@ impl Course {
                 // With the usual scatter: without any they would look like records of a quieter time.
                 let calm: Vec<f64> = ends.iter().map(|i| expected(*i) + scatter.copysign(largest)).collect();
                 ends.iter().zip(calm).for_each(|(i, y)| self.y[*i] = y);
+                aside = aside.max(leaps);
             }
         }
+        aside
     }
 }
 
