@@ -170,6 +170,11 @@ fn look(measured: &Measurement, options: &Options) -> Result<Analysis, Problem> 
             (AnalysisError::TooShort { .. }, None) if among => {
                 ", however many are averaged: a shorter record does not tell a bearing's lines from the shaft's".into()
             }
+            (AnalysisError::RateTooLow { rate_hz, needed_hz, .. }, _)
+                if (*needed_hz..1e6).contains(&(1e3 * rate_hz)) =>
+            {
+                format!("; a rate in kHz is written {rate_hz}kHz")
+            }
             // As many r/min would be enough as Hz.
             (AnalysisError::TooShort { revolutions, .. }, None)
                 if measured.is_told_in_rpm() && 60.0 * revolutions >= FEWEST_REVOLUTIONS =>

@@ -163,11 +163,17 @@ impl<'a> Plot<'a> {
     fn units(&self) -> String {
         let unit = &self.spec.y_unit;
         let mut units = format!("[[{},1,false]", json(&plain(unit)));
-        if unit == "m/s^2" {
-            let _ = write!(units, ",[\"g\",{},false]", 1.0 / STANDARD_GRAVITY);
-            if self.velocity {
-                units.push_str(",[\"mm/s\",1000,true]");
-            }
+        let in_si = match &**unit {
+            "m/s^2" => 1.0,
+            "g" => STANDARD_GRAVITY,
+            _ => return units + "]",
+        };
+        let _ = match &**unit {
+            "g" => write!(units, ",[\"m/s²\",{in_si},false]"),
+            _ => write!(units, ",[\"g\",{},false]", 1.0 / STANDARD_GRAVITY),
+        };
+        if self.velocity {
+            let _ = write!(units, ",[\"mm/s\",{},true]", 1e3 * in_si);
         }
         units + "]"
     }

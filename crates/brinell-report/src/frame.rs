@@ -12,7 +12,7 @@ use crate::picture::Picture;
 use sha2::{Digest, Sha256};
 
 /// At the foot of pages with curves.
-pub(crate) const THINNED: &str = "Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.";
+pub(crate) const THINNED: &str = "Of long curves a column of pixels, or of the values that the page keeps for zooming (65 536 at most), shows its smallest and largest value, in spectra its largest.";
 
 /// A page up to the end of its header: title, a line under it, the version of the program that `done` it ("Simulated");
 /// both may be empty. `warning`: a few words in bold, and what is to be said of them.

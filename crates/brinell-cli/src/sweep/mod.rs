@@ -144,7 +144,7 @@ fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
         check_name(name, &names).map_err(|error| Failure::Usage(format!("--plot {error}")))?;
     }
     Ok(match &args.plot[..] {
-        [] => usual(&points.example, &names),
+        [] => usual(points, &names),
         chosen => chosen.to_vec(),
     })
 }

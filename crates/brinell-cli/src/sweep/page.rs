@@ -6,7 +6,7 @@ use crate::say::{plural, shown_unit};
 use brinell::document::quantity_of_key;
 use brinell::made_by::MadeBy;
 use brinell::result::Quantity;
-use brinell::scenario::{Scenario, Surface};
+use brinell::scenario::Surface;
 use brinell_report::{
     Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Page, Piece, Table, sweep_lead, sweep_legend,
     value_text, words,
@@ -24,9 +24,10 @@ const GRID: usize = 3;
 /// Pictures of one indicator; lines beyond them are in the tables alone.
 const PICTURES: usize = 4;
 
-/// RMS, peak to peak and kurtosis of the sensor's acceleration along the axis nearer the load, the envelope's lines of damaged surfaces,
-/// RMS of the rings; of `names` that are there.
-pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
+/// RMS, peak to peak and kurtosis of the sensor's acceleration along the axis nearer the load, the envelope's lines of the surfaces that are
+/// damaged in any point, RMS of the rings; of `names` that are there.
+pub(super) fn usual(points: &Points, names: &[String]) -> Vec<String> {
+    let scenario = &points.example;
     let axis = ["x", "y"][scenario.operation.axis_of_load()];
     let mut usual = Vec::new();
     if let Some(machine) = &scenario.machine {
@@ -39,7 +40,15 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
         Surface::InnerRaceway => "envelope.bpfi",
         Surface::Roller(_) => "envelope.2bsf",
     });
-    let lines: BTreeSet<&str> = lines.collect();
+    let settings = (0..points.read.tasks.len()).flat_map(|k| points.read.grid.settings(k));
+    let moved = settings.filter(|(key, _)| key.starts_with("defects.") && key.ends_with(".on"));
+    let moved = moved.filter_map(|(_, on)| match on.trim_matches('"') {
+        "outer-raceway" => Some("envelope.bpfo"),
+        "inner-raceway" => Some("envelope.bpfi"),
+        "roller" => Some("envelope.2bsf"),
+        _ => None,
+    });
+    let lines: BTreeSet<&str> = lines.chain(moved).collect();
     usual.extend(lines.into_iter().map(String::from));
     usual.extend(["inner", "outer"].map(|ring| format!("{ring}_a{axis}.rms")));
     usual.retain(|name| names.is_empty() || names.contains(name));

@@ -145,7 +145,10 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
         values: m.x[..m.x.len().min(WAVEFORM)].to_vec(),
     };
     let (low, high) = (a.view.band.low, a.view.band.high);
-    let shaded = format!(" Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).", a.view.choice.words());
+    let shaded = format!(
+        " Shaded: the band demodulated for the envelope spectrum, {low:.0} to {high:.0} Hz ({}).",
+        a.view.choice.words()
+    );
     let spectrum = |s: &Spectrum| spectrum_of(s, &format!("{quantity} amplitude"), of.unit, &shaded);
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
@@ -167,7 +170,7 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
         demodulated_hz: Some((a.view.band.low, a.view.band.high)),
         note: format!(
             "Spectral kurtosis of each band, 0 for noise; from below, {} bands up to half the sample rate. Outlined: the most impulsive{} \
-             among bands wide enough for the defect frequencies; no verdict rests on it. Dashed: the band demodulated below ({}).",
+             among bands wide enough for the defect frequencies; no verdict rests on it. Dashed: the band demodulated for the envelope spectrum ({}).",
             bands.join(", "),
             a.kurtogram.map_or(String::new(), |k| format!(" ({})", short(k.kurtosis, 4))),
             a.view.choice.words(),

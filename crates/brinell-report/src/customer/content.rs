@@ -148,7 +148,7 @@ fn reason(a: &Analysis) -> String {
                 family.frequency
             ),
             (_, Some(_), _) => "What would be damage is in the record given as healthy, too. Was the machine healthy then?".into(),
-            (.., Some(Unexplained::Impacts(..))) => "Something strikes, and not at a steady rate as damage of this bearing does.".into(),
+            (.., Some(Unexplained::Impacts(..))) => "Something strikes, and not clearly at a rate of this bearing: its damage may be among the causes.".into(),
             (.., Some(Unexplained::Level(growth))) => {
                 format!("The vibration is {growth:.1} times that of the healthy record, and nothing of this bearing explains it.")
             }

@@ -216,6 +216,9 @@ fn envelope(lead: &Judged, size: Size) -> Picture {
 fn caption(lead: &Judged) -> &'static str {
     let found = lead.report.markers.iter().any(|marker| marker.present);
     match (found, lead.verdict) {
+        (true, Verdict::Damage) if lead.report.markers.iter().all(|marker| marker.sidebands.is_empty()) => {
+            "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence. Other peaks are the shaft's or come from elsewhere."
+        }
         (true, Verdict::Damage) => {
             "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence. Short marks above: sidebands. Other peaks are the shaft's or come from elsewhere."
         }

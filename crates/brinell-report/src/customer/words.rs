@@ -188,6 +188,9 @@ pub(super) fn not_said(lead: &Judged) -> [&'static str; 4] {
     [
         "How long the bearing will last, and what caused the damage.",
         match lead.has_no_bearing() {
+            false if lead.bearings.len() > 1 => {
+                "Faults of other parts: the frequencies of these bearings alone were looked for. As a rule the stronger of two damaged parts is named."
+            }
             true => {
                 "Which part it is: no bearing was given. Damage of a rolling element or the cage was not looked for."
             }

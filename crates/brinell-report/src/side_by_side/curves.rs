@@ -160,7 +160,10 @@ pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> Piece {
 /// "defect 1 (outer raceway, row 1)".
 pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
     let of = |run: &&RunResult| run.simulation.model().defects.get(defect).map(place);
-    let place = runs.iter().find_map(of).unwrap_or_default();
+    let place = match all_alike(runs.iter().filter_map(of)) {
+        Some(place) => place,
+        None => "each run's own place".into(),
+    };
     format!("defect {} ({place})", defect + 1)
 }
 

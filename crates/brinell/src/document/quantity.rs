@@ -164,7 +164,7 @@ fn product(text: &str) -> Option<Unit> {
 fn quotient(text: &str, bracketed: impl Fn(&str) -> Option<Unit>) -> Option<Unit> {
     // Common spellings of r/min and Hz that name no turns.
     match text {
-        "1/min" | "min^-1" | "min-1" | "RPM" => return named("rpm"),
+        "1/min" | "min^-1" | "min-1" | "RPM" | "U/min" | "tr/min" => return named("rpm"),
         "1/s" | "s^-1" => return named("Hz"),
         _ => {}
     }

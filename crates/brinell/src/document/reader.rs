@@ -339,10 +339,8 @@ fn unknown(
         // What is likeliest first.
         sections.sort_by_key(|section| section.matches('.').count());
         // The path of one of several tables has a number.
-        let path = match sections.first() {
-            Some(&"defects") => format!(" (its path is defects.0.{wanted})"),
-            _ => String::new(),
-        };
+        let of_defects = sections.first().and_then(|section| section.strip_prefix("defects"));
+        let path = of_defects.map_or(String::new(), |rest| format!(" (its path is defects.0{rest}.{wanted})"));
         let homes: Vec<String> = sections.into_iter().map(home).collect();
         homes.join(" or ") + &path
     };

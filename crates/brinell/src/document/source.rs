@@ -403,7 +403,10 @@ pub(crate) fn override_value(text: &str) -> Result<Node, String> {
     match DeValue::parse(text.trim()) {
         Ok(value) => Node::from_toml(&value, false, 0).map_err(|_| too_deep()),
         Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => {
-            Err(format!("not a TOML value: {}", error.message()))
+            // `on="roller",roller=2`.
+            let another = text.split_once(',').is_some_and(|(_, rest)| rest.contains('='));
+            let hint = if another && !text.starts_with(['[', '{']) { "; keys are parted by `;`" } else { "" };
+            Err(format!("not a TOML value: {}{hint}", error.message()))
         }
         Err(_) => Ok(Node::unplaced(Value::Text(text.trim().to_string()))),
     }

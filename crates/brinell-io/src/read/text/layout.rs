@@ -387,7 +387,7 @@ fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: 
     let mut lines = above.iter().rev().map_while(|line| fits(line));
     let (last, before) = (lines.next(), lines.next());
     let (names, units) = match (last, before) {
-        (Some(units), Some(names)) if units.iter().all(|u| is_unit(u)) => (names, units),
+        (Some(units), Some(names)) if are_units(&units, &names) => (names, units),
         (Some(names), _) => (names, Vec::new()),
         (None, _) => {
             let words = |names: &Vec<String>| names.iter().all(|n| n.parse::<f64>().is_err());
@@ -425,11 +425,18 @@ pub(super) fn bracketed(name: &str) -> Option<String> {
 }
 
 /// Spellings that make a row of units.
-const KNOWN: [&str; 49] = [
+const KNOWN: [&str; 51] = [
     "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2", "m/s²", "m/s**2",
     "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m", "Pa", "kPa", "MPa", "bar", "Hz",
-    "kHz", "rpm", "RPM", "1/min", "r/min", "min-1", "1/s", "r/s", "rps", "rad", "rad/s", "deg", "°", "°C", "K",
+    "kHz", "rpm", "RPM", "1/min", "r/min", "min-1", "U/min", "tr/min", "1/s", "r/s", "rps", "rad", "rad/s", "deg", "°",
+    "°C", "K",
 ];
+
+/// Whether a row has the units of the names above it: all are, or two of three, where none of those names is one.
+fn are_units(units: &[String], names: &[String]) -> bool {
+    let known = |all: &[String]| all.iter().filter(|text| KNOWN.contains(&text.as_str())).count();
+    units.iter().all(|u| is_unit(u)) || 3 * known(units) >= 2 * units.len() && known(names) == 0
+}
 
 fn is_unit(text: &str) -> bool {
     let brackets = text.len() > 1

@@ -213,11 +213,13 @@ impl Checker<'_> {
         };
         // What the diagnosis reads, below what the anti-alias filter passes (`docs/src/theory/numerics.md`).
         let needed = HARMONICS as f64 * frequency / PASSBAND;
-        if self.s.simulation.sample_rate_hz < needed {
+        let rate = self.s.simulation.sample_rate_hz;
+        if rate < needed {
+            let in_khz = if rate < 1000.0 && 1e3 * rate >= needed { "; in kHz instead of Hz?" } else { "" };
             self.warn(
                 RATE,
                 format!(
-                    "too low for {HARMONICS} harmonics of {name} = {} Hz below {PASSBAND} of the sample rate",
+                    "too low for {HARMONICS} harmonics of {name} = {} Hz below {PASSBAND} of the sample rate{in_khz}",
                     short(frequency)
                 ),
                 format!(">= {}", short(needed)),
