@@ -75,6 +75,7 @@ class Analysis:
         point: str = "",
         date: Any = "",
         author: str = "",
+        remark: str = "",
         damage_kind: str | None = None,
     ) -> None:
         """Write the customer's report: two pages of A4 in plain words, as HTML or PDF, in place of a file that is there.
@@ -89,11 +90,13 @@ class Analysis:
             What stands above it; what is empty is "not stated".
         date : str or date
             When the record was taken, as ``str`` gives it.
+        remark : str
+            What the author adds below the verdict.
         damage_kind : str, optional
             The kind of damage that somebody has seen, by ISO 15243: ``"subsurface-fatigue"``, ``"false-brinelling"`` and others, which the message
             on a wrong one lists. Vibration does not tell it.
         """
-        self._own().to_report(os.fspath(path), [title, machine, point, str(date), author], damage_kind)
+        self._own().to_report(os.fspath(path), [title, machine, point, str(date), author, remark], damage_kind)
 
     def _own(self) -> _brinell.Findings:
         """What was found, where it was found."""

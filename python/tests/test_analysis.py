@@ -160,11 +160,11 @@ def test_prop_a_verdict_has_a_page_where_it_was_found():
 
 def test_prop_the_customers_report_as_html_and_pdf(tmp_path):
     found = brinell.analyze(outer_race(), unit="g", machine_class="2-rigid", **KNOWN)
-    given = {"title": "Pump <1>", "machine": "P-301", "point": "drive end", "date": "2026-03-02", "author": "A. Writer"}
+    given = {"title": "Pump <1>", "machine": "P-301", "point": "drive end", "date": "2026-03-02", "author": "A. Writer", "remark": "Noise since May."}
     for name in ("report.html", "report.pdf"):
         found.to_report(tmp_path / name, damage_kind="false-brinelling", **given)
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
-    for part in ("Pump &lt;1&gt;", "P-301", "drive end", "2026-03-02", "The outer race is damaged", "5.3.3.3"):
+    for part in ("Pump &lt;1&gt;", "P-301", "drive end", "2026-03-02", "Noise since May.", "The outer race is damaged", "5.3.3.3"):
         assert part in page, part
     pdf = (tmp_path / "report.pdf").read_bytes()
     assert pdf.startswith(b"%PDF-1.") and b"/Count 2" in pdf and b"/Author (A. Writer)" in pdf

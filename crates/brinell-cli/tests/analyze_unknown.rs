@@ -17,7 +17,7 @@ fn regress_without_a_bearing_the_comb_and_who_has_it_are_named() {
     let out = call(&[&UNKNOWN[..], &["-o", "look", "--pdf", "customer.pdf"]].concat())
         .exits(0)
         .says(&[
-            "Cannot tell which part: no bearing is given. A comb of lines lies at 107.",
+            "Cannot tell which part: no bearing is given. A comb of lines (one and its multiples) lies at 107.",
             "Known by name with such a frequency, within 2 %: ",
             "6205 (BPFO 3.585)",
         ])

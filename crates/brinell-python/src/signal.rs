@@ -237,12 +237,12 @@ impl Findings {
         Ok(py.detach(|| self.on_page(&x, title, |findings| html(&AnalysisReport::of_findings(&findings).into()))))
     }
 
-    /// Writes the customer's report, as HTML or PDF; what stands above it is title, machine, point, date and author.
+    /// Writes the customer's report, as HTML or PDF; what stands above it is title, machine, point, date, author and remark.
     fn to_report(
         &self,
         py: Python<'_>,
         path: PathBuf,
-        heading: [String; 5],
+        heading: [String; 6],
         damage_kind: Option<&str>,
     ) -> PyResult<()> {
         let kind = |name: &str| {
@@ -251,8 +251,8 @@ impl Findings {
                 bad_value(format!("damage_kind = \"{name}\": no such kind\n  allowed: {}", names.join(", ")))
             })
         };
-        let [title, machine, point, date, author] = heading;
-        let heading = Heading { title, machine, point, date, author, kind: damage_kind.map(kind).transpose()? };
+        let [title, machine, point, date, author, remark] = heading;
+        let heading = Heading { title, machine, point, date, author, remark, kind: damage_kind.map(kind).transpose()? };
         let has = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
         let is_pdf = has("pdf");
         if !is_pdf && !has("html") {

@@ -62,6 +62,7 @@ fn heading() -> Heading {
         point: text("drive end"),
         date: text("2026-03-02"),
         author: text("A. Writer"),
+        remark: text("Noise since May."),
         kind: None,
     }
 }
@@ -329,6 +330,7 @@ fn hostile(text: &str, signals: usize, remarks: usize) -> CustomerReport {
         point: given(),
         date: given(),
         author: given(),
+        remark: given(),
         kind: DamageKind::all().last(),
     };
     let without = vec![(given(), given()); signals];

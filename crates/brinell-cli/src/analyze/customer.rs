@@ -57,6 +57,7 @@ impl AnalyzeArgs {
                 ("--machine", of.machine.is_some()),
                 ("--point", of.point.is_some()),
                 ("--author", of.author.is_some()),
+                ("--remark", of.remark.is_some()),
                 ("--damage-kind", of.damage_kind.is_some()),
                 ("--date", !self.trend.date.is_empty() && !self.trend.trend),
             ];
@@ -134,6 +135,7 @@ impl AnalyzeArgs {
             machine: text(&of.machine),
             point: text(&of.point),
             author: text(&of.author),
+            remark: text(&of.remark),
             date,
             kind: of.damage_kind,
         })

@@ -22,6 +22,9 @@ pub(crate) struct CustomerArgs {
     /// Who writes it
     #[arg(long, value_name = "TEXT", help_heading = REPORT)]
     pub(super) author: Option<String>,
+    /// A remark of the author, such as what was seen on site or what is recommended: it stands below the verdict
+    #[arg(long, value_name = "TEXT", help_heading = REPORT)]
+    pub(super) remark: Option<String>,
     /// The kind of damage that somebody has seen, as ISO 15243 names it: vibration does not tell it
     #[arg(long, value_name = "KIND", help_heading = REPORT, value_parser = damage_kind())]
     pub(super) damage_kind: Option<DamageKind>,

@@ -59,7 +59,7 @@ pub enum NoReach {
     #[error("too few records for a rate")]
     Few,
     /// Nothing grows.
-    #[error("no significant growth in the last records, so no rate leads there")]
+    #[error("it is not reached at the rate of the last records, which do not grow significantly")]
     NoGrowth,
 }
 

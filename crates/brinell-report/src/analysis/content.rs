@@ -242,8 +242,8 @@ fn markers(a: &Analysis) -> Vec<Marker> {
     let elsewhere = a.elsewhere.map(|e| Marker {
         label: if a.has_no_bearing() { "comb" } else { "other" }.into(),
         meaning: match a.has_no_bearing() {
-            true => "comb as of a damaged race",
-            false => "deepest comb, at no frequency of this bearing",
+            true => "a line and its multiples, as of a damaged race",
+            false => "the deepest comb (a line and its multiples), at no frequency of this bearing",
         }
         .into(),
         frequency_hz: e.frequency,

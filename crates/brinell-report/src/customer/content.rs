@@ -298,7 +298,7 @@ fn all(signals: &[Judged], without: &[NotJudged]) -> Table {
         "Channels",
         heads,
         rows,
-        "The clearest damage leads; a channel that shows none does not take it back. Score: how far the lines rise over the noise; the verdict also takes how deep they modulate.",
+        "The clearest damage leads; a channel without damage does not cancel it. Score: how far the lines rise over the noise; the verdict also takes how deep they modulate.",
     )
 }
 

@@ -65,7 +65,8 @@ impl CustomerReport {
     /// Letters of what was given that the PDF's typeface lacks, each once: it shows ? in their place.
     pub fn missing_letters(&self) -> String {
         let heading = &self.heading;
-        let given = [&heading.title, &heading.machine, &heading.point, &heading.author, &self.lead.channel];
+        let given =
+            [&heading.title, &heading.machine, &heading.point, &heading.author, &heading.remark, &self.lead.channel];
         let files = self.lead.provenance.iter().map(|(_, words)| words);
         let mut letters: Vec<char> = given.into_iter().chain(files).flat_map(|text| text.chars()).collect();
         letters.retain(|c| !c.is_whitespace() && !font::has(c.encode_utf8(&mut [0; 4]), false));

@@ -30,6 +30,8 @@ pub struct Heading {
     pub date: String,
     /// Who wrote it.
     pub author: String,
+    /// What the author adds; may be empty.
+    pub remark: String,
     /// The kind of damage that somebody has seen.
     pub kind: Option<DamageKind>,
 }

@@ -131,6 +131,10 @@ impl CustomerReport {
             Block::Facts(facts),
             Block::Result { tone: lead.tone(), headline: of + &headline(lead) + &clearest, said },
         ];
+        let remark = heading.remark.trim();
+        if !remark.is_empty() {
+            blocks.push(text("Remark of the author:", remark.to_owned()));
+        }
         if !self.all.rows.is_empty() {
             blocks.push(Block::Table { table: self.all.clone(), most: CHANNELS });
         }

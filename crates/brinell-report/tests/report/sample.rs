@@ -56,7 +56,7 @@ impl Report {
             chapters::orbit(r.cage_orbits),
             chapters::indicators(&r.indicators),
             chapters::slip(&r.slip, r.slip_rows),
-            chapters::assumptions(&r.assumptions),
+            chapters::assumptions(&r.assumptions, false),
         ]);
         all.extend(chapters::appendices(&r.audits, &r.solver_work, &r.scenario_toml));
         all.push(chapters::headline(&signals));

@@ -189,7 +189,7 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
 /// A comb of lines where nobody knows the bearing.
 fn of_unknown(analysis: &Analysis, comb: &Elsewhere) -> String {
     format!(
-        "Cannot tell which part: no bearing is given. A comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, as damage of a \
+        "Cannot tell which part: no bearing is given. A comb of lines (one and its multiples) lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, as damage of a \
          race would; blades, gears or a coupling may have one too.",
         comb.frequency,
         comb.frequency / analysis.shaft,
