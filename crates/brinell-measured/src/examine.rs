@@ -23,7 +23,7 @@ use std::path::Path;
 /// The shaft's speed, and in words where it comes from.
 pub(crate) fn turning<'a>(measurement: &'a Measurement, request: &Request) -> Result<(&'a Turning, String), Problem> {
     let speed = measurement.speed.as_ref();
-    let speed = speed.ok_or_else(|| Problem::Given(Question::Speed.words(request.called)))?;
+    let speed = speed.ok_or_else(|| Problem::Given(Question::Speed(None).words(request.called)))?;
     let source = request.source_of_speed(&speed.source);
     request.turning(speed.value.rpm, &source)?;
     // A mean has more digits than anybody reads.

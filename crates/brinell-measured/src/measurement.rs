@@ -6,7 +6,7 @@ use crate::known::{Known, Source};
 use crate::problem::{NoRateStated, Problem, Question};
 use crate::rate::rate;
 use crate::request::{MOST, Request};
-use crate::speed::{Turning, given, of_pulses, speed, states_speed};
+use crate::speed::{Turning, given, may_be_speed, of_pulses, speed, states_speed};
 use crate::stretch::{Beyond, Part, scale, stretch};
 use crate::unit::{beyond_full_scale, unit};
 use brinell::analysis::{AnalysisError, Flaw, Unit, repetition};
@@ -332,7 +332,7 @@ fn what(file: &mut SignalFile, request: &Request, run: Option<&Loaded>) -> Resul
     let rate = rate(file, of, request, run.is_some())?.map_err(|q| questions.push(q));
     let unit = unit(name, of, file.kind() == FileKind::Wav, request, run)?.map_err(|q| questions.push(q));
     if request.judged && request.speed.is_none() && !states_speed(file, request, run, name) {
-        questions.push(Question::Speed);
+        questions.push(Question::Speed(may_be_speed(file, name)));
     }
     if request.judged && !request.names_a_bearing() && run.is_none() {
         questions.push(Question::Bearing);

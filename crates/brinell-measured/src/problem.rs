@@ -41,8 +41,8 @@ pub enum Question {
     Rate(NoRateStated),
     /// The unit, in words.
     Unit(String),
-    /// The shaft's speed.
-    Speed,
+    /// The shaft's speed; the channel that may be it, where one looks so.
+    Speed(Option<String>),
     /// The bearing.
     Bearing,
 }
@@ -85,8 +85,10 @@ impl Question {
                 }
             }
             Self::Unit(words) => words.clone(),
-            Self::Speed => {
+            Self::Speed(channel) => {
+                let found = channel.as_ref().map(|name| format!(", --speed-channel \"{name}\", or --tacho NAME for a channel of pulses"));
                 let others = match called {
+                    Called::Options(_) if found.is_some() => &found.unwrap_or_default(),
                     Called::Options(_) => ", --speed-channel NAME, or --tacho NAME for a channel of pulses",
                     Called::Fields => "",
                     Called::Keywords => ", or tacho for pulses",

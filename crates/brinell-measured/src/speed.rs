@@ -269,6 +269,21 @@ pub(crate) fn states_speed(file: &SignalFile, request: &Request, run: Option<&Lo
     request.speed_channel.is_some() || request.tacho.is_some() || run.is_some() || file.speed_variable(signal).is_some()
 }
 
+/// The channel beside the signal that may be a speed, by its unit or name, where there is one.
+pub(crate) fn may_be_speed(file: &SignalFile, signal: &str) -> Option<String> {
+    let looks = |channel: &&Channel| {
+        let is_speed = |unit: &String| {
+            !["Hz", "1/s"].contains(&unit.as_str()) && reading::quantity(&format!("1 {unit}"), "r/min").is_ok()
+        };
+        let name = channel.name.to_lowercase();
+        channel.name != signal
+            && (channel.unit.as_ref().is_some_and(is_speed)
+                || ["rpm", "speed", "drehzahl"].iter().any(|word| name.contains(word)))
+    };
+    let mut found = file.channels().iter().filter(looks);
+    found.next().filter(|_| found.next().is_none()).map(|channel| channel.name.clone())
+}
+
 /// A speed that varies, which has to keep its sign: `of` is what states it.
 fn followed(rpm: f64, course: Vec<(f64, f64)>, source: &str, of: &str, called: Called) -> Result<Stated, Problem> {
     let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));

@@ -38,6 +38,12 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
+    let scenario = &loaded.scenario;
+    if !scenario.defects.is_empty() && findings.lines.is_empty() && scenario.operation.speed_rpm.constant().is_none() {
+        printed.push(
+            "  the speed changes, so no line has a frequency in Hz: the page has the envelope over orders".into(),
+        );
+    }
     let same = |h| findings.over_healthy(h).and_then(|r| r.interval).is_some_and(|(low, high)| low < 1.0 && high > 1.0);
     if parts.healthy.is_some_and(same) && findings.lines.iter().any(|line| line.found.is_some()) {
         printed.push("  no level difference to the healthy run; a healthy bearing also shows a BPFO line".into());
@@ -48,7 +54,6 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
         part.map_or("-".into(), |x| short(x.abs(), 1)),
         (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
-    let scenario = &loaded.scenario;
     let after = doubtful(scenario, simulation, outcome, findings);
     printed.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
