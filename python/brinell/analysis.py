@@ -160,7 +160,7 @@ def analyze(
     pulses : int
         Pulses of `tacho` a turn.
     bearing : str, path or Scenario, optional
-        A name that ``brinell analyze --bearing`` takes, or a scenario with this bearing, or its file.
+        A name that ``brinell analyze --bearing`` takes, ``"unknown"`` where nobody knows it, or a scenario with this bearing, or its file.
     rollers, pitch_mm, diameter_mm, contact_angle_deg : optional
         A bearing by its numbers instead: rolling elements in a row, pitch diameter, their diameter, contact angle (0 by default). The angle also with a
         bearing by name, under its load in place of its own.

@@ -128,6 +128,12 @@ def test_prop_a_verdict_says_which_kind_it_is():
     assert [family["name"] for family in found.families]
 
 
+def test_prop_without_a_bearing_the_comb_and_who_has_it_are_named():
+    found = brinell.analyze(outer_race(), unit="g", **{**KNOWN, "bearing": "unknown"})
+    assert found.says == "cannot_tell" and found.families == [] and "6205 (BPFO 3.585)" in found.verdict
+    assert "no bearing is given" in found.verdict
+
+
 def test_prop_lines_of_the_supply_are_set_aside():
     # Six poles: 3.05 times the shaft's speed, where a 6203 has its BPFO.
     t = np.arange(48000) / 12000.0
