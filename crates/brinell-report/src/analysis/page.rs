@@ -68,7 +68,7 @@ impl From<AnalysisReport> for Page {
         let r = Arc::new(report);
         let verdict = vec![Piece::Verdict(r.tone, r.verdict.clone()), Piece::Headline(r.facts.clone())];
         let whole = Figure::still("whole", "", &r, |r, layout| whole(r, layout).picture());
-        let middle = "A stretch from the middle, about ten periods of the strongest defect frequency long.";
+        let middle = "A stretch from the middle, about ten periods of the strongest defect frequency long; <em>All</em> shows the signal around it, up to 65 536 samples, to zoom in.";
         let waveform = vec![Piece::Figure(whole), Piece::Figure(Figure::plot("close", middle, &r, close))];
         let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
         let plot = |id, spectra: &[Spectrum], draw| Piece::Figure(Figure::plot(id, note(spectra), &r, draw));
