@@ -39,7 +39,7 @@ def test_prop_a_variant_is_the_baseline_changed(base, result):
 
 def test_regress_what_cannot_be_compared(base, result):
     for runs, variants, words in [
-        ({"a": base}, {}, "1 to compare, and it takes two: name another scenario, or give a variant\n  allowed: 2 to 6"),
+        ({"a": base}, {}, "1 to compare, and it takes two at least\n  allowed: 2 to 6"),
         ({}, {"a": {}, "b": {}}, "Give the baseline"),
         ({"a": base}, {"a": {}}, "two runs would be called a"),
         ({"a": base}, {"5": {}}, "`5` cannot name a run"),

@@ -197,7 +197,9 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
         // Most sources say it themselves.
         let said = value.source.starts_with("Estimated");
         let estimated = if value.estimated && !said { "estimated: " } else { "" };
-        say!("  {:<width$}  {:>11}  {estimated}{}", value.key, datum(&value.value), value.source);
+        let laws =
+            value.laws.map_or(String::new(), |laws| format!(" (under simulation.laws = \"{}\" alone)", laws.word()));
+        say!("  {:<width$}  {:>11}  {estimated}{}{laws}", value.key, datum(&value.value), value.source);
     }
     for (class, [low, high]) in classes(entry) {
         let this = match named == Some(class) {

@@ -156,6 +156,13 @@ fn held(outcomes: &[Outcome]) -> [String; 3] {
     })
 }
 
+/// What holds of claims that are not dynamic, where there are any.
+fn others(shapes: String, kinematics: String) -> Vec<String> {
+    let all = [(shapes, "shapes"), (kinematics, "kinematics and slip")];
+    let there = all.into_iter().filter(|(held, _)| !held.ends_with(" of 0"));
+    there.map(|(held, of)| format!("{held} about {of}")).collect()
+}
+
 /// The finding, and why it is so.
 fn lead(request: &Request, outcomes: &[Outcome]) -> String {
     let [dynamics, shapes, kinematics] = held(outcomes);
@@ -167,11 +174,7 @@ fn lead(request: &Request, outcomes: &[Outcome]) -> String {
         1 => " by these short runs (without --quick more is decided)",
         _ => "",
     };
-    let others = [(shapes, "shapes"), (kinematics, "kinematics and slip")];
-    let others: Vec<String> = (others.into_iter())
-        .filter(|(held, _)| !held.ends_with(" of 0"))
-        .map(|(held, of)| format!("{held} about {of}"))
-        .collect();
+    let others = others(shapes, kinematics);
     let others = match others.is_empty() {
         true => String::new(),
         false => format!(" Of claims that are not dynamic {} are reproduced.", others.join(" and ")),
@@ -217,7 +220,8 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         facts.push(Fact::new("Depend on an assumption", n.to_string(), "", "of the above"));
     }
     let [dynamics, shapes, kinematics] = held(&reproduction.outcomes);
-    let beside = format!("and {shapes} about shapes, {kinematics} about kinematics and slip");
+    let beside = others(shapes, kinematics);
+    let beside = if beside.is_empty() { String::new() } else { format!("and {}", beside.join(", ")) };
     facts.insert(0, Fact::new("Dynamic claims reproduced", dynamics, "", beside));
     facts
 }

@@ -136,7 +136,8 @@ fn options(
     options.supply = request.supply;
     options.band = request.band;
     options.rotation = rotation(turning)?;
-    options.measured_speed = measurement.speed.as_ref().is_some_and(|speed| speed.source != Source::Given);
+    options.measured_speed =
+        measurement.speed.as_ref().is_some_and(|speed| speed.source != Source::Given && !speed.value.is_set);
     Ok(options)
 }
 

@@ -26,6 +26,8 @@ pub struct Turning {
     pub rpm: f64,
     /// Whether its unit was stated by nobody.
     pub is_bare: bool,
+    /// Whether a channel holds one value throughout: one that was set, and no record of the speed.
+    pub is_set: bool,
     /// Time (s, from the stretch's beginning) and speed (r/min), where it [varies].
     pub course: Vec<(f64, f64)>,
     /// That the file states another speed than was given.
@@ -34,7 +36,7 @@ pub struct Turning {
 
 impl Turning {
     fn steady(rpm: f64) -> Self {
-        Self { rpm, is_bare: false, course: Vec::new(), other: None }
+        Self { rpm, is_bare: false, is_set: false, course: Vec::new(), other: None }
     }
 
     /// Whether it is a number without a unit that is so low that it may be in Hz.
@@ -189,7 +191,9 @@ impl SpeedChannel<'_> {
         let source = format!("the channel `{name}`, {said}");
         let course = course(&speeds, own, mean);
         if course.is_empty() {
-            return Ok((Turning { is_bare, ..Turning::steady(mean) }, format!("the mean of {source}")));
+            let is_set = speeds.len() > 1 && speeds.iter().all(|rpm| *rpm == speeds[0]);
+            let of = if is_set { "one value throughout" } else { "the mean" };
+            return Ok((Turning { is_bare, is_set, ..Turning::steady(mean) }, format!("{of} of {source}")));
         }
         if covers < 0.98 * seconds {
             return Err(refused(format!(

@@ -6,7 +6,7 @@ use super::page::{called, on_page};
 use super::records::Record;
 use crate::failure::Failure;
 use crate::say::{complain, short};
-use brinell::analysis::{MachineClass, Unit};
+use brinell::analysis::{MachineClass, Unit, Verdict};
 use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator};
 use brinell_measured::{Diagnosis, Findings, Measurement, Short, examine, is_too_short};
@@ -61,6 +61,8 @@ pub(super) struct Row {
 pub(super) struct Found {
     pub(super) seconds: f64,
     pub(super) verdict: String,
+    /// Whether it is *cannot tell*, of any bearing, and no damage of another.
+    pub(super) is_open: bool,
     /// Whether a verdict takes a longer record.
     pub(super) too_short: bool,
     /// The same in whole, of each bearing.
@@ -141,6 +143,7 @@ impl Found {
             seconds: short.measurement.seconds(),
             json: short.to_json(),
             verdict: "too short".into(),
+            is_open: false,
             too_short: true,
             sentences: vec![short.why],
             lead: None,
@@ -184,6 +187,7 @@ impl Found {
         Found {
             seconds: a.duration(),
             verdict: verdicts.collect::<Vec<_>>().join("; "),
+            is_open: lead.is_none() && results.iter().any(|r| r.analysis.conclusion() == Verdict::CannotTell),
             too_short: false,
             sentences: match results {
                 [only] => vec![only.verdict_text()],

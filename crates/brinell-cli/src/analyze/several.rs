@@ -135,11 +135,20 @@ fn leading(args: &AnalyzeArgs, rows: &[Row]) -> Option<String> {
     if Each::of(args) == Each::File {
         return None;
     }
-    let found = rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
-    let calls = found.filter_map(|(row, found)| Some((row, found, found.lead?)));
+    let found = || rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
+    let calls = found().filter_map(|(row, found)| Some((row, found, found.lead?)));
+    let mut open = found().filter(|(_, found)| found.is_open);
     Some(match calls.max_by(|a, b| a.2.total_cmp(&b.2)) {
         Some((row, found, _)) => format!("{} leads: {}", one_line(&row.name), found.sentences.join(" ")),
-        None => "No damage is called in any of them.".into(),
+        None => match open.next() {
+            Some((row, first)) => format!(
+                "Damage is called in none, and {} cannot tell. {}: {}",
+                open.count() + 1,
+                one_line(&row.name),
+                first.sentences.join(" ")
+            ),
+            None => "No damage is called in any of them.".into(),
+        },
     })
 }
 
@@ -219,6 +228,10 @@ fn report(args: &AnalyzeArgs, rows: &[Row], dated: Option<&Trend>) -> Page {
         note(rows) + &alone(rows, each),
     );
     let mut subtitle = format!("{}, damage called in {damaged}", say::plural(rows.len(), &of.to_lowercase()));
+    let open = found().filter(|f| f.is_open).count();
+    if open > 0 {
+        subtitle += &format!(", cannot tell in {open}");
+    }
     if !failures.is_empty() {
         subtitle += &format!(", no result from {}", failures.len());
     }

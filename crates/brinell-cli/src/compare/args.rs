@@ -20,7 +20,7 @@ use std::path::PathBuf;
     Exit codes: 0 done, 1 a run failed or was interrupted (nothing is written), 2 bad input.\n\n\
     Examples:\n  \
     brinell compare actual.toml simplified.toml -o out/compare\n  \
-    brinell compare base.toml --variant lumped:simulation.model=lumped\n  \
+    brinell compare base.toml --variant lumped:simulation.model=lumped --set simulation.laws=li2023\n  \
     brinell compare base.toml --variant 'paper:simulation.laws=li2023; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
 )]
 pub(crate) struct CompareArgs {

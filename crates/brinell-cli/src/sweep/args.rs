@@ -23,7 +23,7 @@ use std::path::PathBuf;
     Exit codes: 0 every point is done, 1 a point failed or Ctrl-C stopped the sweep (what is finished is kept), 2 bad input.\n\n\
     Examples:\n  \
     brinell sweep base.toml --vary operation.speed_rpm=1000:5000:500 --vary bearing.radial_clearance_um=5,10,20 -o out/sweep\n  \
-    brinell sweep base.toml --vary operation.speed_rpm=1000:5000:1000 --vary simulation.model=full,lumped\n  \
+    brinell sweep base.toml --vary operation.speed_rpm=1000:5000:1000 --vary simulation.model=full,lumped --set simulation.laws=li2023\n  \
     brinell sweep base.toml --together 'operation.speed_rpm=1000,2000; operation.load_n=[300,0],[600,0]'\n  \
     brinell sweep base.toml --vary 'defects.0.shape={rectangle={length_mm=3,width_mm=4}},{circle={diameter_mm=3.9}}'"
 )]

@@ -175,6 +175,7 @@ fn followed(level: Level, times: &Times, records: &[Record], alpha: f64, limits:
         let reach = match (&outcome, last.is_some_and(|side| side.is_above())) {
             (_, true) => Err(NoReach::Above),
             (None, _) => Err(NoReach::Few),
+            (Some(outcome), _) if outcome.aside > 0 => Err(NoReach::Leap),
             (Some(outcome), _) => {
                 let limit = if level.by_factors { value.ln() } else { value };
                 let last = outcome.changes.last().and_then(|change| change.reach(&course, limit));

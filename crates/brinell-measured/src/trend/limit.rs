@@ -58,6 +58,9 @@ pub enum NoReach {
     /// There are too few records.
     #[error("too few records for a rate")]
     Few,
+    /// The last records leap off the course of those before: a rate without them would tell too late or too early.
+    #[error("no time is said: the last records lie far off the course of those before, and no rate of both is known")]
+    Leap,
     /// Nothing grows.
     #[error("it is not reached at the rate of the last records, which do not grow significantly")]
     NoGrowth,

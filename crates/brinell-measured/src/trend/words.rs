@@ -145,9 +145,6 @@ impl Trend {
         let reach = match limit.reach {
             Ok(reach) => format!("; {}", self.reach(&reach)),
             Err(NoReach::Above) => String::new(),
-            Err(NoReach::NoGrowth) if of.aside().is_some() => {
-                "; no rate leads there but that of the last records, which leap off the course of those before".into()
-            }
             Err(why) => format!("; {why}"),
         };
         format!("{} {}{unit}: {above}{reach}", of.level.called(), limit.text())

@@ -375,7 +375,7 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
                 "#Other, dB",
             ],
             lines,
-            "Amplitudes over the mean of the envelope in one band; free of the sensor's scale.",
+            "Amplitude of each line alone over the mean of the envelope in the band shown; free of the sensor's scale. The verdict's modulation is of all lines of a part and of all bands together. A line may be another part's, where harmonics of two lie together, and frequencies are those of the highest line near each place.",
         ),
     ]
 }

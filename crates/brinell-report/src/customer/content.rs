@@ -90,6 +90,7 @@ impl Judged {
             score: highest_score(a),
             reason: reason(a),
             whole: whole(of.findings.levels),
+            is_ample: a.duration() * a.shaft >= 60.0 && m.rate >= 10_000.0,
             severity,
             evidence: evidence(a),
             levels: levels(&of.findings),

@@ -72,6 +72,8 @@ pub struct Judged {
     pub reason: String,
     /// The machine as a whole, by this signal.
     pub whole: Whole,
+    /// Whether the record is as long and as finely sampled as is asked for: sixty turns of the shaft, 10 kHz.
+    pub is_ample: bool,
     /// What tells how bad the damage itself is: sentences that begin with a word and a colon.
     pub severity: Vec<String>,
     /// What is found at each defect frequency.

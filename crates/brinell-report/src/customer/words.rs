@@ -53,6 +53,9 @@ pub(super) fn sure(judged: &Judged) -> &'static str {
             "clear, the second of three grades: the evidence is that of damage, and something (such as the speed) is not confirmed by the record itself, or it is less strong than in most."
         }
         (Verdict::Damage, _) => "weak, the lowest of three grades: something healthy may look the same.",
+        (Verdict::CannotTell, _) if judged.has_no_bearing() => {
+            "open. Without the bearing's name nothing tells its lines from those of other parts."
+        }
         (Verdict::CannotTell, _) => {
             "open. The record holds too little, or something that this bearing does not explain."
         }
@@ -126,7 +129,11 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
             "Measure at shorter intervals until that is settled.",
         ]),
         (Verdict::Damage, _) => steps.extend([
-            "Confirm within days: measure again at the same place, speed and load; check noise, temperature and lubricant.",
+            if of.heading.kind.is_some() {
+                "Damage was seen, and the record shows it: no further record is needed to confirm it."
+            } else {
+                "Confirm within days: measure again at the same place, speed and load; check noise, temperature and lubricant."
+            },
             if high {
                 "Order the bearing now and bring its exchange forward: do not wait for the next planned stop without a further look at the machine."
             } else {
@@ -143,7 +150,10 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
                 true => "Find out which bearing it is (parts list, housing, maker of the machine) and have the record judged with it; check other bearings, gears and couplings nearby.",
                 false => "Settle what is open: check the speed (best with a tachometer), the designation of the bearing, and other bearings, gears and couplings nearby.",
             },
-            "Measure again on the bearing's housing: sixty turns of the shaft or more at steady speed, sampled at 10 kHz or more.",
+            match of.lead.is_ample {
+                true => "Measure again on the bearing's housing, for twice as long and at another speed: lines of other parts move apart from the bearing's. A record from when the machine was healthy would decide most.",
+                false => "Measure again on the bearing's housing: sixty turns of the shaft or more at steady speed, sampled at 10 kHz or more.",
+            },
             "Do not exchange the bearing on this record alone; measure at shorter intervals until it is settled.",
         ]),
         (Verdict::NothingFound, _) => {

@@ -39,7 +39,7 @@ impl Page {
         let chapter = |id: &str, title: &str, pieces| Chapter::new(id, title, title, pieces);
         let mut chapters = vec![Chapter::table("differences", "What differs", differing(sides))];
         if !spread.is_empty() {
-            chapters.push(Chapter::table("spread", "What is assumed", bands(&names, spread)));
+            chapters.push(Chapter::table("spread", "What is assumed", bands(&names, spread)).folded());
         }
         chapters.extend([
             chapter("waveform", "Sensor acceleration", vec![waveform(&names, runs)]),
@@ -136,7 +136,11 @@ fn bands(names: &[String], spread: &[Vec<Level>]) -> Table {
         let first = level.bars.first().map_or("–".into(), |bar| bar.key.clone());
         vec![level.name.clone(), name.clone(), short(level.value, 3), low, high, level.beside_one().into(), first]
     };
-    let of = |(name, levels): (&String, &Vec<Level>)| levels.iter().map(|level| row(name, level)).collect::<Vec<_>>();
+    // Frequencies hold: their ratios are 1.
+    let levels = |levels: &'_ Vec<Level>| -> Vec<Level> {
+        levels.iter().filter(|level| !level.name.ends_with("frequency")).cloned().collect()
+    };
+    let of = |(name, all): (&String, &Vec<Level>)| levels(all).iter().map(|level| row(name, level)).collect::<Vec<_>>();
     Table::new(
         "What assumed values do to the ratios",
         ["Number", "Run", "#Ratio", "#From", "#To", "The band lies", "Largest effect"],
@@ -210,7 +214,8 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     let both_differ = |side: &Side| {
         let own = &side.loaded.scenario;
         own.simulation.laws != first.simulation.laws
-            && (&own.defects, &own.bearing, &own.operation) != (&first.defects, &first.bearing, &first.operation)
+            && (&own.defects, &own.bearing, &own.operation, own.simulation.model)
+                != (&first.defects, &first.bearing, &first.operation, first.simulation.model)
     };
     if sides.iter().any(both_differ) {
         warn(

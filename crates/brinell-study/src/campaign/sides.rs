@@ -33,9 +33,7 @@ pub struct Side {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SidesError {
     /// So many.
-    #[error(
-        "{0} to compare, and it takes two: name another scenario, or give a variant\n  allowed: 2 to {MOST} scenarios and variants"
-    )]
+    #[error("{0} to compare, and it takes two at least\n  allowed: 2 to {MOST} scenarios and variants")]
     Count(usize),
     /// A name that cannot head a column.
     #[error("`{0}` cannot name a run\n  allowed: words without commas and quotes that are no number")]

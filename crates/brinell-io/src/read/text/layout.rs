@@ -425,11 +425,11 @@ pub(super) fn bracketed(name: &str) -> Option<String> {
 }
 
 /// Spellings that make a row of units.
-const KNOWN: [&str; 51] = [
+const KNOWN: [&str; 54] = [
     "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2", "m/s²", "m/s**2",
-    "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m", "Pa", "kPa", "MPa", "bar", "Hz",
-    "kHz", "rpm", "RPM", "1/min", "r/min", "min-1", "U/min", "tr/min", "1/s", "r/s", "rps", "rad", "rad/s", "deg", "°",
-    "°C", "K",
+    "mm/s^2", "in/s^2", "in/s2", "ips", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m", "Pa",
+    "kPa", "MPa", "bar", "Hz", "kHz", "rpm", "RPM", "1/min", "r/min", "min-1", "U/min", "tr/min", "1/s", "r/s", "rps",
+    "rad", "rad/s", "deg", "°", "°C", "K",
 ];
 
 /// Whether a row has the units of the names above it: all are, or two of three, where none of those names is one.
