@@ -24,7 +24,7 @@ use crate::pressure::{pressures, static_limit};
 use crate::scenario::{Choice, GeometryLaw, LoadOn, Scenario, Speed};
 use crate::simulate::Simulation;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
-pub use after::{after, converted, doubtful, of_energy, strayed, unsettled};
+pub use after::{after, converted, doubtful, of_changing_speed, of_energy, strayed, unsettled};
 pub use machine::{carried, observed};
 use std::f64::consts::TAU;
 use warning::{NO_LOAD, WEIGHT_SHARE, short, warning};

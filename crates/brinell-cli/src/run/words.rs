@@ -2,7 +2,7 @@
 
 use crate::say::{one_line, short};
 use brinell::observe::{ChannelStatistics, DefectLine};
-use brinell::plausibility::{converted, doubtful, unsettled};
+use brinell::plausibility::{converted, doubtful, of_changing_speed, unsettled};
 use brinell::result::Parts;
 use brinell::result::fields;
 use brinell::signal::Indicator;
@@ -35,7 +35,8 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     printed.extend(parts.read().filter_map(sensor_line));
     printed.extend(parts.read().filter_map(|channel| healthy_line(parts, channel)));
     printed.extend(spread.map(super::spread::lines).into_iter().flatten());
-    let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
+    let changing = of_changing_speed(&loaded.scenario, simulation, findings);
+    let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings)).chain(changing);
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
     let scenario = &loaded.scenario;

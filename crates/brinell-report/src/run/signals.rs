@@ -1,11 +1,12 @@
 //! Of a run's page, the sensor signal: waveform, spectra, defect frequencies, indicators.
 
-use crate::number::short;
+use crate::number::{capital, short};
 use crate::{Estimate, Event, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};
 use brinell::analysis::HARMONICS;
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, DefectLine, Kind};
+use brinell::plausibility::of_changing_speed;
 use brinell::result::Parts;
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
@@ -184,11 +185,13 @@ pub(super) fn indicators(parts: &Parts, has_spread: bool) -> IndicatorTable {
             if has_spread { "the section on it has its bands" } else { "`brinell run --spread`" }
         ),
     };
+    let changing = of_changing_speed(&parts.loaded.scenario, parts.simulation, parts.findings);
+    let changing = changing.map_or(String::new(), |words| format!(" {}.", capital(&words)));
     IndicatorTable {
         columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),
         rows,
         note: format!(
-            "From t = {} s on. {of} The anti-alias filter takes away what lies above half the sample rate: instantaneous values hold all of it.",
+            "From t = {} s on. {of}{changing} The anti-alias filter takes away what lies above half the sample rate: instantaneous values hold all of it.",
             short(parts.findings.from, 3)
         ),
     }

@@ -160,6 +160,28 @@ pub fn unsettled(findings: &Findings) -> Vec<String> {
     words.collect()
 }
 
+/// Speeds that differ by more within the statistics make an average of many machines.
+const ONE_SPEED: f64 = 0.05;
+
+/// That statistics are of a speed that changes, in words.
+#[doc(hidden)]
+pub fn of_changing_speed(scenario: &Scenario, simulation: &Simulation, findings: &Findings) -> Option<String> {
+    let (rotation, from) = (&simulation.model().rotation, findings.from);
+    let steps = 200;
+    let at = |k: usize| from + (scenario.simulation.duration_s - from) * k as f64 / steps as f64;
+    let speeds = (0..=steps).map(|k| rotation.at(at(k)).0.abs());
+    let (low, high) = speeds.fold((f64::INFINITY, 0.0_f64), |(low, high), w| (low.min(w), high.max(w)));
+    let rpm = |w: f64| (60.0 * w / std::f64::consts::TAU).round();
+    (high > (1.0 + ONE_SPEED) * low).then(|| {
+        format!(
+            "the speed goes from {} to {} r/min in what is analysed: levels are averages over that, and intervals hold it beside scatter; for levels \
+             of one speed run that speed",
+            rpm(low),
+            rpm(high)
+        )
+    })
+}
+
 /// What the energy audit says; `refined`: what it was left open by before the run was made again.
 #[doc(hidden)]
 pub fn of_energy(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> Vec<String> {
