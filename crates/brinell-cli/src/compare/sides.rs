@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
 use crate::results::scenario_file;
+use crate::say::complain;
 use brinell::scenario::Scenario;
 use brinell_study::campaign::{Side, SidesError, check_labels, split};
 use std::path::{Path, PathBuf};
@@ -43,7 +44,13 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Sides, Fai
     let given = (0..sources.len()).map(|k| (k, Vec::new()));
     let from: Vec<_> = given.chain(variants.into_iter().map(|(_, settings)| (0, settings))).collect();
     let sides = labels.into_iter().zip(&from).map(|(label, (source, settings))| {
-        let loaded = sources[*source].load(settings, args.quiet)?;
+        let loaded = sources[*source].load(settings, args.quiet).inspect_err(|_| {
+            // What a variant lacks is in no file.
+            if !settings.is_empty() {
+                let keys: Vec<&str> = settings.iter().map(|(key, _)| key.as_str()).collect();
+                complain!("in the variant {label}, which sets {} (further keys follow behind `;`):", keys.join(", "));
+            }
+        })?;
         Ok(Side { label, loaded })
     });
     let sides = sides.collect::<Result<_, Failure>>()?;
