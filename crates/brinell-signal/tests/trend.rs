@@ -33,6 +33,23 @@ fn prop_scatter_that_wanders_changes_no_oftener_than_is_said() {
     }
 }
 
+/// Two last records far above a level are in no change, and are said to be in none; of as many within the scatter nothing is said.
+#[test]
+fn analytic_last_records_that_leap_are_set_aside_and_counted() {
+    for (leap, aside) in [(0.0, 0), (1.0, 1), (2.0, 2)] {
+        let mut random = Random::new(11);
+        let mut y: Vec<f64> = scatter(&mut random, 16, 0.0).iter().map(|v| 0.03 * v).collect();
+        if leap > 0.0 {
+            y[15] += 2.0;
+        }
+        if leap > 1.0 {
+            y[14] += 1.6;
+        }
+        let found = changes(&course(y, 0.01), 0.01).unwrap();
+        assert_eq!((found.aside, found.changes.len()), (aside, 0), "{leap}");
+    }
+}
+
 /// A level that grows fourfold in the last 16 of 40 records, with a scatter of 10 % that wanders.
 #[test]
 fn analytic_growth_of_known_onset_rate_and_end_is_within_its_intervals() {
