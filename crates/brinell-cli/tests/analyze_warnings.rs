@@ -22,7 +22,7 @@ fn regress_a_low_speed_without_a_unit_may_be_in_hz() {
     let args = "analyze rig.csv --channel acc --rate 12000 --unit g --bearing 6205 --speed-channel speed";
     brinell(folder.path(), &typed(args))
         .exits(0)
-        .complains(&["taken as r/min: a mean of 30.0000 r/min is 0.50 Hz; if it is in Hz let the channel say so"]);
+        .complains(&["taken as r/min, one value throughout: a mean of 30.0000 r/min is 0.50 Hz; if it is in Hz let the channel say so"]);
 }
 
 #[test]

@@ -191,9 +191,10 @@ impl SpeedChannel<'_> {
         let source = format!("the channel `{name}`, {said}");
         let course = course(&speeds, own, mean);
         if course.is_empty() {
-            let is_set = speeds.len() > 1 && speeds.iter().all(|rpm| *rpm == speeds[0]);
-            let of = if is_set { "one value throughout" } else { "the mean" };
-            return Ok((Turning { is_bare, is_set, ..Turning::steady(mean) }, format!("{of} of {source}")));
+            let is_set = self.a_turn.is_none() && speeds.len() > 1 && speeds.iter().all(|rpm| *rpm == speeds[0]);
+            let place =
+                if is_set { format!("{source}, one value throughout") } else { format!("the mean of {source}") };
+            return Ok((Turning { is_bare, is_set, ..Turning::steady(mean) }, place));
         }
         if covers < 0.98 * seconds {
             return Err(refused(format!(
