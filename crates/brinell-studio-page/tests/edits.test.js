@@ -247,7 +247,7 @@ describe("edits", () => {
       await type(field("Load"), "300 N");
       await load([300, 0]);
       // While the speed is refused nothing is opened.
-      await type(field("Speed"), "1800 U/min");
+      await type(field("Speed"), "1800 stone");
       await page.waitForSelector('#controls [aria-invalid="true"]');
       await type(field("Noise, RMS"), "0.1 g");
       await ran(page);
