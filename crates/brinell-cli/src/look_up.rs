@@ -5,7 +5,7 @@ use crate::confined;
 use crate::failure::{ExitCode, Failure};
 use crate::files;
 use crate::say::{self, document, plain_number, say};
-use brinell::analysis::{DefectOrders, NamedBearing};
+use brinell::analysis::{DefectOrders, NamedBearing, TOLERANCE};
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
@@ -76,9 +76,6 @@ fn list() {
     }
     say!("\n`brinell bearing show NAME` gives every number with its source.");
 }
-
-/// How far slip and an inexact speed may move a frequency, relative.
-const TOLERANCE: f64 = 0.02;
 
 /// The bearings that have these frequencies.
 fn of_orders(orders: &[f64], json: bool) -> Result<(), Failure> {

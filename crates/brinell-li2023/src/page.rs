@@ -148,24 +148,24 @@ pub(crate) fn study(
     }
 }
 
-/// "3 of 4": how many of the findings hold, of each basis: dynamics, shapes, kinematics.
-fn held(outcomes: &[Outcome]) -> [String; 3] {
-    [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|basis| {
-        let (holds, all) = outcome::held(outcomes, basis);
-        format!("{holds} of {all}")
-    })
+/// "3 of 4": how many of the dynamic claims hold.
+fn dynamics(outcomes: &[Outcome]) -> String {
+    let (holds, all) = outcome::held(outcomes, Basis::Dynamics);
+    format!("{holds} of {all}")
 }
 
-/// What holds of claims that are not dynamic, where there are any.
-fn others(shapes: String, kinematics: String) -> Vec<String> {
-    let all = [(shapes, "shapes"), (kinematics, "kinematics and slip")];
-    let there = all.into_iter().filter(|(held, _)| !held.ends_with(" of 0"));
-    there.map(|(held, of)| format!("{held} about {of}")).collect()
+/// The same of the claims that are not dynamic, where there are any: "1 of 2 about shapes".
+fn others(outcomes: &[Outcome]) -> Vec<String> {
+    let of = |(basis, about)| {
+        let (holds, all) = outcome::held(outcomes, basis);
+        (all > 0).then(|| format!("{holds} of {all} about {about}"))
+    };
+    [(Basis::Shapes, "shapes"), (Basis::Kinematics, "kinematics and slip")].into_iter().filter_map(of).collect()
 }
 
 /// The finding, and why it is so.
 fn lead(request: &Request, outcomes: &[Outcome]) -> String {
-    let [dynamics, shapes, kinematics] = held(outcomes);
+    let dynamics = dynamics(outcomes);
     let of = |verdict| {
         let mine = outcomes.iter().filter(|o| o.claim.basis == Basis::Dynamics && !o.claim.statements.is_empty());
         mine.filter(|o| o.judged.verdict == verdict).count()
@@ -174,7 +174,7 @@ fn lead(request: &Request, outcomes: &[Outcome]) -> String {
         1 => " by these short runs (without --quick more is decided)",
         _ => "",
     };
-    let others = others(shapes, kinematics);
+    let others = others(outcomes);
     let others = match others.is_empty() {
         true => String::new(),
         false => format!(" Of claims that are not dynamic {} are reproduced.", others.join(" and ")),
@@ -219,10 +219,9 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         let n = reproduction.outcomes.iter().filter(|outcome| !outcome.flips.is_empty()).count();
         facts.push(Fact::new("Depend on an assumption", n.to_string(), "", "of the above"));
     }
-    let [dynamics, shapes, kinematics] = held(&reproduction.outcomes);
-    let beside = others(shapes, kinematics);
+    let beside = others(&reproduction.outcomes);
     let beside = if beside.is_empty() { String::new() } else { format!("and {}", beside.join(", ")) };
-    facts.insert(0, Fact::new("Dynamic claims reproduced", dynamics, "", beside));
+    facts.insert(0, Fact::new("Dynamic claims reproduced", dynamics(&reproduction.outcomes), "", beside));
     facts
 }
 

@@ -108,14 +108,15 @@ impl Diagnosis {
         let order = a.elsewhere.filter(|_| a.has_no_bearing())?.frequency / a.shaft;
         let all = KnownBearing::struck_at(&[order], a.options.tolerance);
         let (first, rest) = all.split_at(all.len().min(SHOWN));
-        let per_cent = (1e4 * a.options.tolerance).round() / 1e2;
+        let per_cent = a.options.tolerance_percent();
         if first.is_empty() {
             return Some(format!("No bearing known by name has a frequency within {per_cent} % of it."));
         }
-        let frequency =
-            |found: &[(&str, f64)]| found.iter().map(|(name, own)| format!("{name} {own:.3}")).collect::<String>();
-        let first: Vec<String> =
-            first.iter().map(|(known, found)| format!("{} ({})", known.name(), frequency(found))).collect();
+        // One order was asked for.
+        let words = |(known, found): &(KnownBearing, Vec<(&str, f64)>)| {
+            found.first().map(|(name, own)| format!("{} ({name} {own:.3})", known.name()))
+        };
+        let first: Vec<String> = first.iter().filter_map(words).collect();
         let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
         Some(format!("Known by name with such a frequency, within {per_cent} %: {}{more}.", first.join(", ")))
     }

@@ -86,10 +86,11 @@ impl Question {
             }
             Self::Unit(words) => words.clone(),
             Self::Speed(channel) => {
-                let found = channel.as_ref().map(|name| format!(", --speed-channel \"{name}\", or --tacho NAME for a channel of pulses"));
+                let channel = channel.as_ref().map_or("NAME".into(), |name| format!("\"{name}\""));
                 let others = match called {
-                    Called::Options(_) if found.is_some() => &found.unwrap_or_default(),
-                    Called::Options(_) => ", --speed-channel NAME, or --tacho NAME for a channel of pulses",
+                    Called::Options(_) => {
+                        &format!(", --speed-channel {channel}, or --tacho NAME for a channel of pulses")
+                    }
                     Called::Fields => "",
                     Called::Keywords => ", or tacho for pulses",
                 };

@@ -4,7 +4,7 @@ use crate::asked::{Asked, Elements, UNKNOWN};
 use crate::called::Called;
 use crate::known::Source;
 use crate::problem::Problem;
-use brinell::analysis::{MachineClass, SUPPLY_HZ, Unit};
+use brinell::analysis::{MachineClass, SUPPLY_HZ, TOLERANCE, Unit};
 use brinell::signal::Band;
 use std::path::PathBuf;
 
@@ -52,7 +52,7 @@ pub struct Request {
     pub elements: Elements,
     /// BPFO, BPFI, BSF and FTF: in Hz, or with x multiples of the shaft's frequency.
     pub frequencies: [Option<String>; 4],
-    /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 otherwise.
+    /// How far slip and an inexact speed may move a defect frequency, relative; [`TOLERANCE`] otherwise.
     pub tolerance: Option<f64>,
     /// Range to demodulate.
     pub band: Option<Band>,
@@ -121,7 +121,7 @@ impl Request {
     }
 
     pub(crate) fn tolerance(&self) -> f64 {
-        self.tolerance.unwrap_or(0.02)
+        self.tolerance.unwrap_or(TOLERANCE)
     }
 
     /// Whether anything says which bearing it is.

@@ -163,15 +163,12 @@ impl<'a> Plot<'a> {
     fn units(&self) -> String {
         let unit = &self.spec.y_unit;
         let mut units = format!("[[{},1,false]", json(&plain(unit)));
-        let in_si = match &**unit {
-            "m/s^2" => 1.0,
-            "g" => STANDARD_GRAVITY,
+        let (in_si, other, factor) = match &**unit {
+            "m/s^2" => (1.0, "g", 1.0 / STANDARD_GRAVITY),
+            "g" => (STANDARD_GRAVITY, "m/s²", STANDARD_GRAVITY),
             _ => return units + "]",
         };
-        let _ = match &**unit {
-            "g" => write!(units, ",[\"m/s²\",{in_si},false]"),
-            _ => write!(units, ",[\"g\",{},false]", 1.0 / STANDARD_GRAVITY),
-        };
+        let _ = write!(units, ",[\"{other}\",{factor},false]");
         if self.velocity {
             let _ = write!(units, ",[\"mm/s\",{},true]", 1e3 * in_si);
         }

@@ -35,20 +35,25 @@ pub(super) fn usual(points: &Points, names: &[String]) -> Vec<String> {
         usual.extend(shown.flat_map(|of| [format!("{of}.rms"), format!("{of}.kurtosis")]));
     }
     usual.extend(["rms", "peak_to_peak", "kurtosis"].map(|indicator| format!("sensor_a{axis}.{indicator}")));
-    let lines = scenario.defects.iter().map(|defect| match defect.on {
-        Surface::OuterRaceway => "envelope.bpfo",
-        Surface::InnerRaceway => "envelope.bpfi",
-        Surface::Roller(_) => "envelope.2bsf",
+    let own = scenario.defects.iter().map(|defect| match defect.on {
+        Surface::OuterRaceway => "outer-raceway",
+        Surface::InnerRaceway => "inner-raceway",
+        Surface::Roller(_) => "roller",
     });
-    let settings = (0..points.read.tasks.len()).flat_map(|k| points.read.grid.settings(k));
-    let moved = settings.filter(|(key, _)| key.starts_with("defects.") && key.ends_with(".on"));
-    let moved = moved.filter_map(|(_, on)| match on.trim_matches('"') {
+    // Each value of an axis once, and not for each point.
+    let varied = points.read.grid.axes().iter().flat_map(|axis| {
+        let keys = axis.keys();
+        axis.settings().iter().flat_map(move |values| keys.iter().zip(values))
+    });
+    let moved = varied.filter(|(key, _)| key.starts_with("defects.") && key.ends_with(".on"));
+    let moved = moved.map(|(_, on)| on.trim_matches('"'));
+    let lines = own.chain(moved).filter_map(|on| match on {
         "outer-raceway" => Some("envelope.bpfo"),
         "inner-raceway" => Some("envelope.bpfi"),
         "roller" => Some("envelope.2bsf"),
         _ => None,
     });
-    let lines: BTreeSet<&str> = lines.chain(moved).collect();
+    let lines: BTreeSet<&str> = lines.collect();
     usual.extend(lines.into_iter().map(String::from));
     usual.extend(["inner", "outer"].map(|ring| format!("{ring}_a{axis}.rms")));
     usual.retain(|name| names.is_empty() || names.contains(name));

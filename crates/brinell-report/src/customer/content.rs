@@ -243,7 +243,7 @@ fn method(a: &Analysis) -> String {
     format!(
         "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling; lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of healthy machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
         a.bands,
-        (1e4 * a.options.tolerance).round() / 1e2
+        a.options.tolerance_percent()
     )
 }
 

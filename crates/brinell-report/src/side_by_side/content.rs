@@ -136,11 +136,11 @@ fn bands(names: &[String], spread: &[Vec<Level>]) -> Table {
         let first = level.bars.first().map_or("–".into(), |bar| bar.key.clone());
         vec![level.name.clone(), name.clone(), short(level.value, 3), low, high, level.beside_one().into(), first]
     };
-    // Frequencies hold: their ratios are 1.
-    let levels = |levels: &'_ Vec<Level>| -> Vec<Level> {
-        levels.iter().filter(|level| !level.name.ends_with("frequency")).cloned().collect()
+    let of = |(name, levels): (&String, &Vec<Level>)| {
+        // Frequencies hold: their ratios are 1.
+        let levels = levels.iter().filter(|level| !level.name.ends_with("frequency"));
+        levels.map(|level| row(name, level)).collect::<Vec<_>>()
     };
-    let of = |(name, all): (&String, &Vec<Level>)| levels(all).iter().map(|level| row(name, level)).collect::<Vec<_>>();
     Table::new(
         "What assumed values do to the ratios",
         ["Number", "Run", "#Ratio", "#From", "#To", "The band lies", "Largest effect"],

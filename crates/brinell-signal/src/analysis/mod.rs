@@ -47,7 +47,7 @@ pub use frequencies::has_bore_in_mm;
 pub use frequencies::{Component, DefectOrders, Measures, NAMED, NamedBearing, Wording, most_elements};
 pub use json::to_json;
 pub use levels::Levels;
-pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
+pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ, TOLERANCE};
 pub use result::{Analysis, Unexplained, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};

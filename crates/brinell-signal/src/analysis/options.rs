@@ -13,7 +13,7 @@ pub struct Options {
     pub shaft: f64,
     /// Defect frequencies over the shaft's.
     pub orders: DefectOrders,
-    /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 unless told.
+    /// How far slip and an inexact speed may move a defect frequency, relative; [`TOLERANCE`] unless told.
     pub tolerance: f64,
     /// The range to demodulate; `None` takes everything above three times the highest defect frequency.
     pub band: Option<Band>,
@@ -47,7 +47,7 @@ impl Options {
         Options {
             shaft,
             orders,
-            tolerance: 0.02,
+            tolerance: TOLERANCE,
             band: None,
             supply: None,
             rotation: None,
@@ -78,12 +78,19 @@ impl Options {
         self.orders.with_given([None; 4]).map(drop)
     }
 
+    /// The tolerance in per cent, as it was given.
+    pub fn tolerance_percent(&self) -> f64 {
+        (1e4 * self.tolerance).round() / 1e2
+    }
+
     /// Whether a speed (Hz) lies farther from the one given than the tolerance.
     pub(super) fn is_other_speed(&self, shaft: f64) -> bool {
         (shaft / self.shaft - 1.0).abs() > self.tolerance
     }
 }
 
+/// How far slip and an inexact speed may move a defect frequency, relative, unless told.
+pub const TOLERANCE: f64 = 0.02;
 /// Allowed values of [`Options::supply`], Hz.
 pub const SUPPLY_HZ: RangeInclusive<f64> = 1.0..=1000.0;
 /// RMS of a machine's noise, m/s^2: somewhat below that of the sound motor in the public records of Case Western
