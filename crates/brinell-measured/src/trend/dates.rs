@@ -7,8 +7,54 @@ use std::path::Path;
 /// Numbers in names that are seconds since 1970: of the years 2001 to 2099. Other counts do not have ten digits.
 pub(super) const EPOCHS: std::ops::Range<f64> = 1e9..4.1e9;
 
+/// What comes first in dates that end with the year.
+#[derive(Clone, Copy, Debug)]
+enum Order {
+    Day,
+    Month,
+}
+
+impl Order {
+    const ALL: [Self; 2] = [Self::Day, Self::Month];
+
+    const fn formats(self) -> [&'static str; 4] {
+        match self {
+            Self::Day => ["%d-%m-%Y-%H-%M-%S", "%d-%m-%Y-%H%M%S", "%d-%m-%Y-%H-%M", "%d-%m-%Y"],
+            Self::Month => ["%m-%d-%Y-%H-%M-%S", "%m-%d-%Y-%H%M%S", "%m-%d-%Y-%H-%M", "%m-%d-%Y"],
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Day => ", read as day, month, year",
+            Self::Month => ", read as month, day, year",
+        }
+    }
+}
+
+/// The dates of texts: in the names of files or their folders (`named`), or given. With words, where the order of day and month was settled by all
+/// of them: by one alone 03.04.2024 may be two dates, beside 13.04.2024 it is one.
+///
+/// # Errors
+/// Where a date may be two and none beside settles the order.
+pub(super) fn dates_of(texts: &[&str], named: bool) -> Result<(Vec<Option<NaiveDateTime>>, &'static str), Problem> {
+    let read = |order: Option<Order>| -> Result<Vec<Option<NaiveDateTime>>, Problem> {
+        texts.iter().map(|text| if named { of_path(text, order) } else { given_date(text, order) }).collect()
+    };
+    let unclear = match read(None) {
+        Ok(dates) => return Ok((dates, "")),
+        Err(unclear) => unclear,
+    };
+    let fit = |order: &Order| read(Some(*order)).is_ok_and(|dates| dates.iter().all(Option::is_some));
+    let mut orders = Order::ALL.into_iter().filter(fit);
+    match (orders.next(), orders.next()) {
+        (Some(order), None) => Ok((read(Some(order))?, order.words())),
+        _ => Err(unclear),
+    }
+}
+
 /// A date that was given, of which nothing is left over.
-pub(super) fn given_date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
+fn given_date(text: &str, order: Option<Order>) -> Result<Option<NaiveDateTime>, Problem> {
     let text = text.trim();
     for day in ["%Y-%m-%d", "%Y%m%d"] {
         for between in ["T", " "] {
@@ -27,31 +73,31 @@ pub(super) fn given_date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
         }
     }
     // As in names, such as 2004.02.12.10.32.39.
-    Ok(date_and_rest(text)?.filter(|(_, rest)| rest.is_empty()).map(|(date, _)| date))
+    Ok(date_and_rest(text, order)?.filter(|(_, rest)| rest.is_empty()).map(|(date, _)| date))
 }
 
 /// The date in a file's name, or in that of its folder.
-pub(super) fn of_path(path: &str) -> Result<Option<NaiveDateTime>, Problem> {
+fn of_path(path: &str, order: Option<Order>) -> Result<Option<NaiveDateTime>, Problem> {
     let path = Path::new(path);
     let names = [path.file_name(), path.parent().and_then(Path::file_name)];
     for name in names.into_iter().flatten() {
-        if let Some(found) = date(&name.to_string_lossy())? {
+        if let Some(found) = date(&name.to_string_lossy(), order)? {
             return Ok(Some(found));
         }
     }
     Ok(None)
 }
 
-/// The first date in a text: ISO 8601, with any of - . _ : and blanks between its numbers or none; a zone behind it counts.
-fn date(text: &str) -> Result<Option<NaiveDateTime>, Problem> {
-    let Some((date, rest)) = date_and_rest(text)? else { return Ok(None) };
+/// The first date in a text: ISO 8601, with any of - / . _ : and blanks between its numbers or none; a zone behind it counts.
+fn date(text: &str, order: Option<Order>) -> Result<Option<NaiveDateTime>, Problem> {
+    let Some((date, rest)) = date_and_rest(text, order)? else { return Ok(None) };
     let zone: String = rest.chars().take(6).collect();
     let ahead = zone.parse::<FixedOffset>().ok().filter(|_| zone.len() == 6 && zone.contains(':'));
     Ok(Some(ahead.and_then(|ahead| date.checked_sub_offset(ahead)).unwrap_or(date)))
 }
 
-/// The first date in a text without regard to its zone, and what is behind it.
-fn date_and_rest(text: &str) -> Result<Option<(NaiveDateTime, &str)>, Problem> {
+/// The first date in a text without regard to its zone, and what is behind it. One that ends with the year needs an `order`.
+fn date_and_rest(text: &str, order: Option<Order>) -> Result<Option<(NaiveDateTime, &str)>, Problem> {
     const FORMATS: [&str; 11] = [
         "%Y-%m-%d-%H-%M-%S",
         "%Y-%m-%d-%H%M%S",
@@ -73,7 +119,7 @@ fn date_and_rest(text: &str) -> Result<Option<(NaiveDateTime, &str)>, Problem> {
             let joins =
                 |of: fn(&u8) -> bool| i > 0 && bytes.get(i - 1).is_some_and(of) && bytes.get(i + 1).is_some_and(of);
             if matches!(c, 'T' | 't') && joins(u8::is_ascii_digit)
-                || matches!(c, ' ' | '.' | '_' | ':') && joins(u8::is_ascii_alphanumeric)
+                || matches!(c, ' ' | '/' | '.' | '_' | ':') && joins(u8::is_ascii_alphanumeric)
             {
                 '-'
             } else {
@@ -85,7 +131,8 @@ fn date_and_rest(text: &str) -> Result<Option<(NaiveDateTime, &str)>, Problem> {
         let rest = &plain[i..];
         let ends = |left: &str| !left.starts_with(|c: char| c.is_ascii_digit());
         let plausible = |d: &NaiveDate| (1900..2200).contains(&d.year());
-        for format in FORMATS {
+        let ordered = order.map(Order::formats);
+        for format in FORMATS.into_iter().chain(ordered.into_iter().flatten()) {
             let found = match NaiveDateTime::parse_and_remainder(rest, format) {
                 Ok(found) => Some(found),
                 Err(_) => NaiveDate::parse_and_remainder(rest, format)
@@ -105,7 +152,9 @@ fn date_and_rest(text: &str) -> Result<Option<(NaiveDateTime, &str)>, Problem> {
         {
             return Ok(Some((d.and_time(chrono::NaiveTime::MIN), &text[text.len() - left.len()..])));
         }
-        unclear(text, &rest.replace('/', "-"))?;
+        if order.is_none() {
+            unclear(text, rest)?;
+        }
     }
     Ok(None)
 }
@@ -121,7 +170,7 @@ fn unclear(text: &str, rest: &str) -> Result<(), Problem> {
     let both: Vec<String> = [read("%d-%m-%Y"), read("%m-%d-%Y")].into_iter().flatten().map(|d| d.to_string()).collect();
     match &both[..] {
         [] => Ok(()),
-        [only] => Err(Problem::Given(format!("{text}: a date is expected from year to day; write {only}"))),
+        [only] => Err(Problem::Given(format!("{text}: write this date as {only}"))),
         [first, second, ..] => Err(Problem::Given(format!(
             "{text}: this date may be {first} or {second}; write the one that is meant in that way"
         ))),
@@ -165,7 +214,7 @@ mod tests {
             "2004_02_12_10_32_39.tdms",
             "2004-02-12T12:32:39+02:00",
         ] {
-            let date = date(name).unwrap().unwrap().to_string();
+            let date = date(name, None).unwrap().unwrap().to_string();
             assert_eq!(date, "2004-02-12 10:32:39", "{name}");
         }
         for (name, day) in [
@@ -173,7 +222,7 @@ mod tests {
             ("b2_20040212.npz", "2004-02-12 00:00:00"),
             ("2004-02-12 08:05", "2004-02-12 08:05:00"),
         ] {
-            assert_eq!(date(name).unwrap().unwrap().to_string(), day, "{name}");
+            assert_eq!(date(name, None).unwrap().unwrap().to_string(), day, "{name}");
         }
         for given in [
             "2004-02-12T12:32:39+0200",
@@ -183,7 +232,7 @@ mod tests {
             "2004.02.12.10.32.39",
             "20040212T103239",
         ] {
-            assert_eq!(given_date(given).unwrap().unwrap().to_string(), "2004-02-12 10:32:39", "{given}");
+            assert_eq!(given_date(given, None).unwrap().unwrap().to_string(), "2004-02-12 10:32:39", "{given}");
         }
         for (name, time) in [
             ("2004-02-12T12:32:39+02:00.npz", "2004-02-12 10:32:39"),
@@ -191,11 +240,31 @@ mod tests {
             ("rig 12-Feb-2004.csv", "2004-02-12 00:00:00"),
             ("12_feb_2004_10_32_39.csv", "2004-02-12 10:32:39"),
         ] {
-            assert_eq!(date(name).unwrap().unwrap().to_string(), time, "{name}");
+            assert_eq!(date(name, None).unwrap().unwrap().to_string(), time, "{name}");
         }
         for name in ["acc_00001.csv", "105.mat", "rig_1730_or_12.npz", "99999999.csv", "6205-2RS.csv"] {
-            assert_eq!(date(name).unwrap(), None, "{name}");
+            assert_eq!(date(name, None).unwrap(), None, "{name}");
         }
-        assert_eq!(of_path("runs/2024-03-01/signals.parquet").unwrap().unwrap().to_string(), "2024-03-01 00:00:00");
+        assert_eq!(
+            of_path("runs/2024-03-01/signals.parquet", None).unwrap().unwrap().to_string(),
+            "2024-03-01 00:00:00"
+        );
+    }
+    #[test]
+    fn prop_one_date_settles_the_order_of_day_and_month_of_all() {
+        let texts = |texts: &[&str], named| {
+            dates_of(texts, named)
+                .map(|(dates, words)| (dates.iter().map(|d| d.unwrap().to_string()).collect::<Vec<_>>(), words))
+        };
+        let days = ["2024-04-03 00:00:00", "2024-04-13 10:32:39"];
+        let by_day = (days.map(str::to_owned).to_vec(), ", read as day, month, year");
+        assert_eq!(texts(&["03.04.2024", "13.04.2024 10:32:39"], false).unwrap(), by_day);
+        assert_eq!(texts(&["rig/pump 03_04_2024.csv", "rig/pump 13_04_2024_103239.csv"], true).unwrap(), by_day);
+        let by_month = (days.map(str::to_owned).to_vec(), ", read as month, day, year");
+        assert_eq!(texts(&["04/03/2024", "4/13/2024 10:32:39"], false).unwrap(), by_month);
+        assert_eq!(texts(&["2024/04/03", "2024/04/13 10:32:39"], false).unwrap(), (by_day.0, ""));
+        for refused in [&["03.04.2024", "04.04.2024"][..], &["13.04.2024", "04.13.2024"], &["03.04.2024 or so"]] {
+            assert!(texts(refused, false).is_err(), "{refused:?}");
+        }
     }
 }

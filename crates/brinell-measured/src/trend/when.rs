@@ -1,6 +1,6 @@
 //! When records were taken: dates or numbers that were given, or those in the names of files.
 
-use super::dates::{EPOCHS, given_date, numbers_of, of_path};
+use super::dates::{EPOCHS, dates_of, numbers_of};
 use crate::problem::Problem;
 use chrono::{DateTime, Datelike, NaiveDate, NaiveDateTime};
 
@@ -85,14 +85,13 @@ impl Times {
         }
         let texts: Vec<&str> =
             if named { files.iter().map(String::as_str).collect() } else { given.iter().map(String::as_str).collect() };
-        let dates: Vec<Option<NaiveDateTime>> =
-            texts.iter().map(|text| if named { of_path(text) } else { given_date(text) }).collect::<Result<_, _>>()?;
+        let (dates, read_as) = dates_of(&texts, named)?;
         let without = dates.iter().position(Option::is_none);
         match (without, named) {
             (None, _) => dated(
                 files,
                 &dates.into_iter().flatten().collect::<Vec<_>>(),
-                if named { "the names of the files" } else { "--date" },
+                &format!("{}{read_as}", if named { "the names of the files" } else { "--date" }),
             ),
             (Some(k), false) => wrong(format!(
                 "--date {}: expected a date as 2024-02-12T10:32:39 or 2024-02-12, or a number with --date-unit, s, min, h or d",
@@ -271,7 +270,7 @@ mod tests {
         let files = ["a.csv", "b.csv"];
         for (files, given, unit, words) in [
             (&files, &["03/04/2024", "2024-05-01"][..], None, "may be 2024-04-03 or 2024-03-04"),
-            (&files, &["25.12.2024", "2024-05-01"], None, "write 2024-12-25"),
+            (&files, &["25.12.2024", "12.25.2024"], None, "write this date as 2024-12-25"),
             (&files, &["2024-05-01", "2024-05-01"], None, "a.csv and b.csv are both of 2024-05-01 00:00:00"),
             (&files, &["2024-05-01"], None, "--date: 1 for 2 files"),
             (&files, &["0", "12"], None, "--date 0: expected a date as"),
