@@ -132,14 +132,34 @@ fn of_full_scale(text: &str, channel: &Channel, is_wav: bool, request: &Request)
     Ok(Scaled { factor, ..Scaled::plain(unit, Source::Given, note) })
 }
 
+/// The unit that the file states. One that also says how amplitudes are read is a line's or a level's, and no sample's.
+fn of_file(stated: Unit, option: &str) -> Scaled {
+    let (unit, doubt) = match Unit::of_amplitude(&stated.name) {
+        Some(unit) => {
+            let doubt = format!(
+                "the file's unit is {}, which is of amplitudes; the samples are taken to be in {}. If they are levels or a spectrum, this is no signal",
+                stated.name, unit.name
+            );
+            (unit, Some(doubt))
+        }
+        None if stated.quantity == Quantity::Other && Unit::given(&stated.name).is_err() => {
+            let doubt = format!(
+                "the file's unit {} is not known here, and nothing is said by levels; give {option} if it is another",
+                stated.name
+            );
+            (stated, Some(doubt))
+        }
+        None => (stated, None),
+    };
+    let note = format!("unit {}, from the file", unit.name);
+    Scaled { unit: Known::by(unit, Source::File("the file".into())).noted(note).doubted(doubt), factor: 1.0 }
+}
+
 /// The unit of the numbers as they are in the file, where it or anybody says.
 fn as_written(channel: &Channel, is_wav: bool, request: &Request) -> Result<Option<Scaled>, Problem> {
     let (stated, called) = (channel.unit.as_deref().map(Unit::of), request.called);
     let Some(text) = &request.unit else {
-        return Ok(stated.map(|unit| {
-            let note = format!("unit {}, from the file", unit.name);
-            Scaled::plain(unit, Source::File("the file".into()), note)
-        }));
+        return Ok(stated.map(|unit| of_file(unit, &called.name("unit"))));
     };
     let option = called.text("unit", text);
     let unit = Unit::given(text).map_err(|error| Problem::Given(format!("{option}: {error}")))?;

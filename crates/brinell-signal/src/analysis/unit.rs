@@ -74,6 +74,14 @@ impl Unit {
         })
     }
 
+    /// Of a spelling that also says how amplitudes are read, such as `g pk` or `mm/s RMS`: the unit alone.
+    pub fn of_amplitude(spelling: &str) -> Option<Self> {
+        const READINGS: [&str; 9] = ["pk", "peak", "0-pk", "0-p", "pk-pk", "p-p", "pp", "rms", "eff"];
+        let text = spelling.trim().trim_end_matches(')');
+        let (unit, reading) = text.rsplit_once([' ', '_', '('])?;
+        READINGS.iter().any(|known| reading.eq_ignore_ascii_case(known)).then(|| Self::known(unit))?
+    }
+
     /// Of a user's spelling, who shall hear of a slip.
     ///
     /// # Errors
@@ -142,6 +150,12 @@ mod tests {
             assert_eq!((unit.name.as_str(), unit.to_si), (name, si));
         }
         assert_eq!(Unit::of("V").quantity, Quantity::Voltage);
+        for (text, name) in [("g pk", "g"), ("mm/s RMS", "mm/s"), ("m/s^2 (peak)", "m/s^2"), ("g_p-p", "g")] {
+            assert_eq!(Unit::of_amplitude(text), Some(Unit::of(name)), "{text}");
+        }
+        for text in ["g", "pk", "furlong pk", "m s", "g 2"] {
+            assert_eq!(Unit::of_amplitude(text), None, "{text}");
+        }
         assert_eq!(Unit::of("furlong").quantity, Quantity::Other);
     }
 

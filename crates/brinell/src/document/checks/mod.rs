@@ -58,9 +58,11 @@ impl<'a> Finder<'a> {
         problem = problem.unit(unit);
         problem.value = self.value(&problem.key);
         problem.also = also.iter().map(|key| (key.to_string(), self.place(key))).collect();
-        // A key that the file leaves out is at fault through the ones it gives.
-        let place = self.place(&problem.key);
-        let place = place.or_else(|| also.iter().find_map(|key| self.place(key)));
+        // A key that nobody gives is at fault through the ones that the file gives; an override is at fault itself.
+        let place = match self.is_given(&problem.key) {
+            true => self.place(&problem.key),
+            false => also.iter().find_map(|key| self.place(key)),
+        };
         problem.at(place)
     }
 
