@@ -98,3 +98,30 @@ fn regress_times_are_known_by_their_unit_and_german_thousands_are_read() {
         "Outer race damage",
     ]);
 }
+
+#[test]
+fn regress_levels_far_from_those_of_machines_ask_for_the_unit() {
+    let folder = tempdir().unwrap();
+    column(&folder.path().join("outer.csv"), &impacts(6.0));
+    let call = |rest: &str| {
+        brinell(folder.path(), &typed(&format!("analyze outer.csv --rate 12000 --speed 1800 --bearing 6205 {rest}")))
+    };
+    assert!(!call("--unit g").exits(0).err.contains("are unit and sensitivity right?"));
+    let high = "of machines, as a rule up to a few g: are unit and sensitivity right?";
+    call("--unit V --sensitivity 10mV/g").exits(0).complains(&["an RMS of ", high]);
+    let low = "below those of running machines, as a rule 0.1 mm/s and more: are unit and sensitivity right?";
+    call("--unit mm/s^2").exits(0).complains(&["an RMS velocity of ", low]);
+}
+
+#[test]
+fn regress_a_geometry_in_metres_and_a_point_between_thousands_are_pointed_to() {
+    let folder = tempdir().unwrap();
+    column(&folder.path().join("outer.csv"), &impacts(6.0));
+    let call = |rest: &str| brinell(folder.path(), &typed(&format!("analyze outer.csv --rate 12000 --unit g {rest}")));
+    call("--speed 1800 --rollers 9 --pitch 0.03904 --diameter 0.00794")
+        .exits(2)
+        .complains(&["--pitch 0.03904: expected mm", "If it is in metres write 39.04 --diameter 7.94"]);
+    call("--speed 1.797 --bearing 6205")
+        .exits(2)
+        .complains(&["a speed in Hz is written 1.80Hz", "if the point divides thousands 1797"]);
+}

@@ -4,16 +4,16 @@ use crate::asked::Asked;
 use crate::bearing::orders;
 use crate::beside;
 use crate::diagnosis::{Against, Diagnosis, Findings};
+use crate::improbable::improbable;
 use crate::known::Source;
 use crate::measurement::Measurement;
 use crate::problem::{Problem, Question};
 use crate::request::{Like, MOST, Request};
 use crate::size::length;
-use crate::speed::Turning;
+use crate::speed::{Turning, is_long_otherwise, written_otherwise};
 use crate::stretch::{Beyond, Reading, Rest};
 use brinell::analysis::{
-    Analysis, AnalysisError, FEWEST_REVOLUTIONS, Levels, Options, Quantity, Side, analyze, analyze_records, compare,
-    velocity,
+    Analysis, AnalysisError, Levels, Options, Quantity, Side, analyze, analyze_records, compare, velocity,
 };
 use brinell::bearing::orders_of;
 use brinell::result::{Stretch, beside_healthy};
@@ -95,6 +95,7 @@ pub fn examine(mut measurement: Measurement, request: &Request) -> Result<Findin
 /// Each once: what one of the bearings is warned of is said of all.
 fn warnings(measurement: &Measurement, bearings: &[Diagnosis]) -> Vec<String> {
     let mut all = measurement.warnings();
+    all.extend(bearings.first().and_then(|first| improbable(measurement, first)));
     for diagnosis in bearings {
         let speed = measurement.speed.as_ref();
         all.extend(speed.into_iter().flat_map(|speed| speed.doubts.clone()));
@@ -176,12 +177,11 @@ fn look(measured: &Measurement, options: &Options) -> Result<Analysis, Problem> 
             {
                 format!("; a rate in kHz is written {rate_hz}kHz")
             }
-            // As many r/min would be enough as Hz.
             (AnalysisError::TooShort { revolutions, .. }, None)
-                if measured.is_told_in_rpm() && 60.0 * revolutions >= FEWEST_REVOLUTIONS =>
+                if measured.is_told_in_rpm() && is_long_otherwise(60.0 * options.shaft, *revolutions) =>
             {
                 let rpm = 60.0 * options.shaft;
-                format!(", at {rpm:.2} r/min; a speed in Hz is written {rpm:.2}Hz")
+                format!(", at {rpm:.2} r/min; {}", written_otherwise(rpm))
             }
             _ => String::new(),
         };

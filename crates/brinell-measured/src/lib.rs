@@ -32,6 +32,7 @@ mod called;
 mod channel;
 mod diagnosis;
 mod examine;
+mod improbable;
 mod json;
 mod known;
 mod measurement;

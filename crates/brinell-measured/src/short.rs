@@ -6,6 +6,7 @@ use crate::json::{FileOf, Said};
 use crate::measurement::Measurement;
 use crate::problem::Problem;
 use crate::request::Request;
+use crate::speed::is_long_otherwise;
 use brinell::analysis::{AnalysisError, FEWEST_REVOLUTIONS, severity};
 use brinell::signal::{Blocks, Estimate, InUnit, Indicator, RECORD_PEAK, Written};
 use serde_json::{Value, json};
@@ -40,8 +41,7 @@ pub fn is_too_short(measurement: &Measurement, request: &Request) -> Result<bool
     let (turning, _) = turning(measurement, request)?;
     let revolutions = measurement.seconds() * turning.shaft();
     let is_constant = measurement.x.iter().all(|v| *v == measurement.x[0]);
-    // As many r/min would be enough as Hz.
-    let is_doubted = turning.may_be_hz() && 60.0 * revolutions >= FEWEST_REVOLUTIONS;
+    let is_doubted = turning.may_be_hz() && is_long_otherwise(turning.rpm, revolutions);
     let explained = is_constant || is_doubted || measurement.repeats.is_some() || !measurement.others.is_empty();
     Ok(revolutions < FEWEST_REVOLUTIONS && !explained)
 }

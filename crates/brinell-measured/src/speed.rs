@@ -6,6 +6,7 @@ use crate::known::{Known, Source};
 use crate::problem::Problem;
 use crate::request::{GivenSpeed, MOST, Request};
 use crate::stretch::{Part, stretch};
+use brinell::analysis::FEWEST_REVOLUTIONS;
 use brinell::document::{Loaded, reading};
 use brinell::operation::Rotation;
 use brinell::scenario::Speed;
@@ -85,9 +86,28 @@ pub(crate) fn given(
     let asked = request.called.number("speed", rpm);
     let other = stated.and_then(|(stated, place)| other_speed(&asked, rpm, stated.rpm, place, request.tolerance()));
     let turning = Turning { is_bare, other, ..Turning::steady(rpm) };
-    let doubt = (turning.may_be_hz())
-        .then(|| format!("{asked}: {rpm} r/min is {:.2} Hz; if it is in Hz write {rpm}Hz", rpm / 60.0));
+    let doubt = (turning.may_be_hz()).then(|| {
+        format!("{asked}: {rpm} r/min is {:.2} Hz; if it is in Hz write {rpm}Hz{}", rpm / 60.0, thousands(rpm))
+    });
     Known::by(turning, Source::Given).doubted(doubt)
+}
+
+/// Whether a record of so few revolutions is long enough for a verdict where the speed, r/min, was meant in Hz, or its point divides thousands.
+pub(crate) fn is_long_otherwise(rpm: f64, revolutions: f64) -> bool {
+    let times = if thousands(rpm).is_empty() { 60.0 } else { 1e3 };
+    times * revolutions >= FEWEST_REVOLUTIONS
+}
+
+/// What a small number with three decimals may be meant as.
+fn thousands(rpm: f64) -> String {
+    let whole = (1e3 * rpm).round();
+    let three = (whole - 1e3 * rpm).abs() < 1e-9 && whole % 10.0 != 0.0 && (1e3..1e5).contains(&whole);
+    if three { format!(", and if the point divides thousands {whole}") } else { String::new() }
+}
+
+/// How a speed is written that was meant otherwise than in r/min.
+pub(crate) fn written_otherwise(rpm: f64) -> String {
+    format!("a speed in Hz is written {rpm:.2}Hz{}", thousands(rpm))
 }
 
 /// A warning, where the speed that was given, `asked` for short, differs from the one stated by more than the tolerance

@@ -50,7 +50,7 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
         let verdict = told.verdict();
         let words = format!("It would be BPFO at {:.0} r/min", 60.0 * nearest.shaft);
         assert!(verdict.contains(&words), "{verdict}");
-        assert!(verdict.contains("Is one of these the speed, and is it this bearing?"));
+        assert!(verdict.contains("Is one of these the speed, or the sample rate another, and is it this bearing?"));
     }
 }
 

@@ -5,7 +5,7 @@ use super::{CustomerReport, Heading, Judged, NotJudged, Whole};
 use crate::analysis::{AnalysisReport, Findings, highest_score, scaled, weight, with_interval};
 use crate::number::{raised, short};
 use crate::tables::Table;
-use brinell::analysis::{Analysis, Component, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
+use brinell::analysis::{Analysis, Component, Elsewhere, Finding, Levels, SEVERITY_BAND, Unexplained, Verdict};
 use brinell::made_by::MadeBy;
 use brinell::signal::{Estimate, Indicator};
 
@@ -82,6 +82,8 @@ impl Judged {
             speed,
             verdict: a.conclusion(),
             clarity: lead.map_or("", |family| a.clarity(family)),
+            less_than_very_clear: lead.and_then(|family| a.less_than_very_clear(family)),
+            speed_is_confirmed: a.speed_is_confirmed(),
             // Lines at FTF are those of one element or of the cage.
             parts: a
                 .causes()
@@ -138,23 +140,46 @@ fn reason(a: &Analysis) -> String {
             ),
             None => "No bearing was given, and nothing strikes regularly as damage of a bearing's race would.".into(),
         },
-        _ if a.elsewhere.is_some() => {
-            let speeds = a.speeds_of_comb().map_or(String::new(), |words| format!(" {words}"));
-            format!("Something strikes regularly, at a rate that is none of this bearing's: another bearing, a gear, or a wrong speed or bearing would explain it.{speeds}")
-        }
-        _ => match (with(Finding::Open), with(Finding::AsBefore), a.unexplained()) {
-            (Some(family), ..) => format!(
-                "There is something at the rate at which {} ({:.1} times a second), and not enough of it to tell damage from other causes.",
-                rate(family.component),
-                family.frequency
-            ),
-            (_, Some(_), _) => "What would be damage is in the record given as healthy, too. Was the machine healthy then?".into(),
-            (.., Some(Unexplained::Impacts(..))) => "Something strikes, and not clearly at a rate of this bearing: its damage may be among the causes.".into(),
-            (.., Some(Unexplained::Level(growth))) => {
-                format!("The vibration is {growth:.1} times that of the healthy record, and nothing of this bearing explains it.")
-            }
-            _ => "The speed changes during the record, so that damage may be missed.".into(),
+        _ => match a.elsewhere {
+            Some(comb) => at_no_rate_of_the_bearing(a, comb),
+            None => otherwise_open(a),
         },
+    }
+}
+
+/// What is open where a comb lies at no frequency of the bearing.
+fn at_no_rate_of_the_bearing(a: &Analysis, comb: Elsewhere) -> String {
+    let wrong =
+        if a.speed_is_confirmed() { "a wrong designation" } else { "a wrong speed, sample rate or designation" };
+    let speeds = a.speeds_of_comb().map_or(String::new(), |words| format!(" {words}"));
+    format!(
+        "Something strikes regularly, {:.1} times a second, {:.3} times a turn of the shaft, which is no rate of this bearing: another bearing, a gear or {wrong} would explain it.{speeds}",
+        comb.frequency,
+        comb.frequency / a.shaft
+    )
+}
+
+/// What is open where there is no such comb.
+fn otherwise_open(a: &Analysis) -> String {
+    let with = |finding| a.families.iter().find(|family| family.finding == finding);
+    match (with(Finding::Open), with(Finding::AsBefore), a.unexplained()) {
+        (Some(family), ..) => format!(
+            "There is something at the rate at which {} ({:.1} times a second), and not enough of it to tell damage from other causes.",
+            rate(family.component),
+            family.frequency
+        ),
+        (_, Some(_), _) => {
+            "What would be damage is in the record given as healthy, too. Was the machine healthy then?".into()
+        }
+        (.., Some(Unexplained::Impacts(..))) => {
+            "Something strikes, and not clearly at a rate of this bearing: its damage may be among the causes.".into()
+        }
+        (.., Some(Unexplained::Level(growth))) => {
+            format!(
+                "The vibration is {growth:.1} times that of the healthy record, and nothing of this bearing explains it."
+            )
+        }
+        _ => "The speed changes during the record, so that damage may be missed.".into(),
     }
 }
 
@@ -241,7 +266,7 @@ fn method(a: &Analysis) -> String {
         );
     }
     format!(
-        "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling; lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of healthy machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
+        "The vibration was demodulated in {} bands, and the spectra of their envelopes were averaged, each over its noise floor. There each rate at which damage of this bearing strikes was sought with five multiples and its sidebands, within {} % of pure rolling (those of rolling element and cage no more than 1 % above); lines of shaft and mains do not count. Damage is called where these lines are high over the noise and modulate the envelope deeply, which those of healthy machines do not (after Randall and Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520).",
         a.bands,
         a.options.tolerance_percent()
     )
@@ -299,7 +324,7 @@ fn all(signals: &[Judged], without: &[NotJudged]) -> Table {
         "Channels",
         heads,
         rows,
-        "The clearest damage leads; a channel without damage does not cancel it. Score: how far the lines rise over the noise; the verdict also takes how deep they modulate.",
+        "The clearest damage leads, and the evidence below and on page 2 is its; a channel without damage does not cancel it. Score: how far the lines rise over the noise; the verdict also takes how deep they modulate.",
     )
 }
 

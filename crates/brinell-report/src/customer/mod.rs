@@ -64,6 +64,10 @@ pub struct Judged {
     pub verdict: Verdict,
     /// How much the evidence of the damage that leads says: `very clear`, `clear`, `weak`.
     pub clarity: &'static str,
+    /// Why it is not very clear, as the end of a sentence, where there is damage and it is not.
+    pub less_than_very_clear: Option<&'static str>,
+    /// Whether a record of the speed or the shaft's own lines confirm it.
+    pub speed_is_confirmed: bool,
     /// The damaged parts, the one that leads first.
     pub parts: Vec<Component>,
     /// Score of that, by which signals are compared.

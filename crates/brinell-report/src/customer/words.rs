@@ -44,13 +44,16 @@ pub(super) fn rate(component: Component) -> &'static str {
 }
 
 /// How sure the verdict is.
-pub(super) fn sure(judged: &Judged) -> &'static str {
-    match (judged.verdict, judged.clarity) {
+pub(super) fn sure(judged: &Judged) -> String {
+    let words = match (judged.verdict, judged.clarity) {
         (Verdict::Damage, "very clear") => {
             "very clear, the highest of three grades. Of the measured records that the program was checked on, and its limits were set on, every verdict of this grade was right, 26 of 26."
         }
         (Verdict::Damage, "clear") => {
-            "clear, the second of three grades: the evidence is that of damage, and something (such as the speed) is not confirmed by the record itself, or it is less strong than in most."
+            return format!(
+                "clear, the second of three grades: the evidence is that of damage, and {}. Of the same measured records every verdict of this grade was right, 5 of 5.",
+                judged.less_than_very_clear.unwrap_or("it is less strong than in most")
+            );
         }
         (Verdict::Damage, _) => "weak, the lowest of three grades: something healthy may look the same.",
         (Verdict::CannotTell, _) if judged.has_no_bearing() => {
@@ -62,7 +65,8 @@ pub(super) fn sure(judged: &Judged) -> &'static str {
         (Verdict::NothingFound, _) => {
             "this is no proof of a healthy bearing. Small damage, poor lubrication or damage far from the sensor may not show; some measured records of damaged bearings look the same."
         }
-    }
+    };
+    words.to_owned()
 }
 
 /// How bad it is: a few words, and on what they rest.
@@ -90,6 +94,10 @@ pub(super) fn grade(of: &CustomerReport) -> (&'static str, String) {
             ("Not graded:", format!("it is open whether the bearing is damaged; {}.", whole(zone)))
         }
         (false, Some(zone)) => ("Inconspicuous:", format!("{}, and no damage is shown.", whole(zone))),
+        (false, None) if of.lead.verdict == Verdict::CannotTell => (
+            "Not graded:",
+            "it is open whether the bearing is damaged, and the record gives no zone of ISO 20816-3.".into(),
+        ),
         (false, None) => ("Not graded:", "no damage is shown, and the record gives no zone of ISO 20816-3.".into()),
     }
 }
@@ -146,9 +154,10 @@ pub(super) fn steps(of: &CustomerReport) -> Vec<&'static str> {
             "Check place, direction and mounting of the sensor, the speed and the bearing's designation: seen damage should show, unless it is small or far from the sensor.",
         ),
         (Verdict::CannotTell, _) => steps.extend([
-            match of.lead.has_no_bearing() {
-                true => "Find out which bearing it is (parts list, housing, maker of the machine) and have the record judged with it; check other bearings, gears and couplings nearby.",
-                false => "Settle what is open: check the speed (best with a tachometer), the designation of the bearing, and other bearings, gears and couplings nearby.",
+            match (of.lead.has_no_bearing(), of.lead.speed_is_confirmed) {
+                (true, _) => "Find out which bearing it is (parts list, housing, maker of the machine) and have the record judged with it; check other bearings, gears and couplings nearby.",
+                (_, true) => "Settle what is open: check the designation of the bearing, and other bearings, gears and couplings nearby. The record confirms the speed.",
+                _ => "Settle what is open: check the speed (best with a tachometer), the sample rate, the designation of the bearing, and other bearings, gears and couplings nearby.",
             },
             match of.lead.is_ample {
                 true => "Measure again on the bearing's housing, for twice as long and at another speed: lines of other parts move apart from the bearing's. A record from when the machine was healthy would decide most.",
@@ -208,8 +217,8 @@ pub(super) fn not_said(lead: &Judged) -> [&'static str; 4] {
                 "Faults of other parts: the frequencies of this bearing alone were looked for. As a rule the stronger of two damaged parts is named."
             }
         },
-        "Whether speed, bearing, unit and sensitivity were right: if not, every line lies elsewhere, or every level and zone is wrong. Most such errors are noticed, not all.",
-        "That a bearing without a finding is healthy.",
+        "Whether speed, sample rate and bearing were right (if not, every line lies elsewhere; most such errors are noticed), and unit and sensitivity (if not, every level and zone is wrong; that is noticed only where a level is far from those of machines).",
+        "Whether a bearing without a finding is healthy: it may not be.",
     ]
 }
 

@@ -100,6 +100,14 @@ impl DefectOrders {
             (None, [None, None, None]) => return Ok(None),
             _ => return Err(format!("{z}, {p} and {d} describe a bearing together; one of them is missing")),
         };
+        // The smallest bearings that are made have a pitch circle of 1.3 mm.
+        if (1e-3..1.0).contains(&pitch) {
+            return Err(format!(
+                "{p}{is}{pitch}: expected mm; the smallest bearings have more than 1. If it is in metres write {}{then}{d}{is}{}",
+                (1e6 * pitch).round() / 1e3,
+                (1e6 * diameter).round() / 1e3
+            ));
+        }
         let orders = Self::of_geometry(elements, diameter, pitch, angle).ok_or_else(|| {
             let most = most_elements(diameter, pitch);
             let room = match diameter < pitch && most >= 3.0 && most.is_finite() {

@@ -51,6 +51,9 @@ const PIECES: f64 = 25.0;
 const PASSING: &str = "Rollers that enter the load of a healthy bearing cause lines of its race too, and modulate the envelope as much where \
                        there is little noise: compare with a run of the healthy bearing.";
 
+/// Nothing found is not nothing there.
+const NOTHING: &str = "No damage found. That is no proof of a sound bearing: small damage may not show.";
+
 /// Why damage is called weakly where the shaft's lines do not fit.
 const OTHER_RATE: &str = "Are speed and sample rate right? The shaft's lines fit another speed or rate better, at which these lines may be another part's.";
 
@@ -61,13 +64,27 @@ impl Analysis {
             || self.impacts_a_turn(family).is_some()
             || self.is_in_pieces()
             || self.asks_for_rate();
-        let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        let doubt = lost || self.speed_used().is_some() || self.slips(family).is_some();
-        let is_sure = self.speed_is_told() && !doubt;
-        match (may_be_other, family.is_very_clear() && is_sure) {
+        match (may_be_other, self.less_than_very_clear(family)) {
             (true, _) => "weak",
-            (_, true) => "very clear",
+            (_, None) => "very clear",
             _ => "clear",
+        }
+    }
+
+    /// Why the evidence of a family that is damage is not very clear, as the end of a sentence; `None` where it is.
+    pub fn less_than_very_clear(&self, family: &Family) -> Option<&'static str> {
+        if !self.speed_is_told() {
+            Some("nothing in the record confirms the speed")
+        } else if self.drift.as_ref().is_some_and(Drift::is_lost) {
+            Some("the speed is lost during the record")
+        } else if self.speed_used().is_some() {
+            Some("the shaft's lines tell another speed than was given")
+        } else if self.slips(family).is_some() {
+            Some("its lines lie farther from pure rolling than usual")
+        } else if !family.is_very_clear() {
+            Some("its lines are less high or less deep than in most")
+        } else {
+            None
         }
     }
 
@@ -87,7 +104,7 @@ impl Analysis {
         match self.conclusion() {
             Verdict::Damage => damage(self, &mut text),
             Verdict::CannotTell => open::cannot_tell(self, &mut text),
-            Verdict::NothingFound => text.push("No damage found.".into()),
+            Verdict::NothingFound => text.push(NOTHING.into()),
         }
         text.extend(self.speed_used());
         text.extend(half_speed(self));

@@ -224,7 +224,7 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
             format!(
                 "the lines of {name} are one in {which} of a comb at {hz:.2} Hz, {at}, and this bearing has no frequency there."
             ),
-            if recorded { of_record } else { "Are speed and bearing right?" },
+            if recorded { of_record } else { "Are speed, sample rate and bearing right?" },
         ),
         None if lines_agree(analysis) => (
             deepest(nearest_frequency(elsewhere, false)),
@@ -233,7 +233,7 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
         None if recorded => (deepest(nearest_frequency(elsewhere, true)), of_record),
         None => (
             deepest(format!(" {}", speeds_if_its(analysis, elsewhere))),
-            "Is one of these the speed, and is it this bearing?",
+            "Is one of these the speed, or the sample rate another, and is it this bearing?",
         ),
     };
     let record = if recorded { "" } else { ", and a record of the speed" };
@@ -258,10 +258,15 @@ fn lines_agree(analysis: &Analysis) -> bool {
 }
 
 impl Analysis {
+    /// Whether a record of the speed or the shaft's own lines say that it is the one given.
+    pub fn speed_is_confirmed(&self) -> bool {
+        self.has_record_of_speed() || lines_agree(self)
+    }
+
     /// At which speeds a comb at no frequency of the bearing would be one of damage, in a sentence; `None` where something tells the speed.
     pub fn speeds_of_comb(&self) -> Option<String> {
         let elsewhere = self.elsewhere.as_ref().filter(|e| e.every.is_none())?;
-        if self.has_record_of_speed() || lines_agree(self) || self.has_no_bearing() {
+        if self.speed_is_confirmed() || self.has_no_bearing() {
             return None;
         }
         Some(speeds_if_its(self, elsewhere))
