@@ -297,7 +297,7 @@ fn tell(s: &Scenario, degrees: f64, rows: &[Row], forces: &[Push]) {
     let change = |at: &Push| (at.damaged[0] - at.healthy[0]).hypot(at.damaged[1] - at.healthy[1]);
     let largest = forces.iter().map(change).fold(0.0, f64::max);
     say!(
-        "Damage changes the force on the outer ring by up to {} N as the cage turns by {} deg",
+        "Damage changes the force on the outer ring, at the scenario's own load, by up to {} N as the cage turns by {} deg",
         short(largest, 4),
         short(last.cage_angle.to_degrees(), 4)
     );

@@ -101,7 +101,7 @@ impl Diagnosis {
     }
 
     /// Where the bearing is not known, those known by name that have its comb.
-    fn struck_alike(&self) -> Option<String> {
+    pub fn struck_alike(&self) -> Option<String> {
         /// What is read at a glance.
         const SHOWN: usize = 6;
         let a = &self.analysis;

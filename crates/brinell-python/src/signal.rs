@@ -272,6 +272,7 @@ impl Findings {
                     bearing: &lead.name,
                     bearings: vec![(lead.name.clone(), String::new())],
                     speed: m.speed_words(),
+                    alike: lead.struck_alike(),
                     size: lead.size_words(),
                 })
             });

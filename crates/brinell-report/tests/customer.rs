@@ -48,6 +48,7 @@ fn judged(height: f64) -> Judged {
         bearing: "6205-2RS",
         bearings: vec![("6205-2RS".into(), "outer race, very clear".into())],
         speed: "1800 r/min, as given".into(),
+        alike: None,
         size: Some("2.0 mm along the rolling direction.".into()),
     })
 }

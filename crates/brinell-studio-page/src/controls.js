@@ -128,6 +128,8 @@ export class Field {
     const value = empty ? undefined : unit && !units ? `${said} ${unit}` : said;
     this.#shown = box.value = String(value ?? "");
     this.#emptied = empty && !!spec.required;
+    // The page draws it with the next frame: what is typed until then and not read stays.
+    this.#held = value;
     take(value);
   }
 

@@ -67,6 +67,7 @@ function bearings(known, run, own) {
     { required: !run },
     option("", run ? `as the file states: that of the run${of}` : "choose"),
     ...known.map((name) => option(name, name)),
+    option("unknown", "unknown: lines as of any damaged race"),
     option(OWN, `this page's bearing${own ? `: ${own}` : ""}`),
   );
 }

@@ -113,7 +113,7 @@ describe("the page in use", () => {
       for (const id of ["sampling-rate", "unit", "bearing", "speed-of-the-shaft"])
         assert.equal(await page.inputValue(`#ask-${id}`), "", id);
       assert.doesNotMatch(await page.textContent("dialog"), /null/);
-      assert.match(await page.textContent("#ask-bearing"), /6205-2RS.*this page's bearing: NN3007/);
+      assert.match(await page.textContent("#ask-bearing"), /6205-2RS.*unknown: lines as of any damaged race.*this page's bearing: NN3007/);
       await judge();
       assert.ok(await page.isVisible("dialog"), "nothing is judged without rate, bearing and speed");
       await page.fill("#ask-sampling-rate", "12000");
@@ -156,6 +156,18 @@ describe("the page in use", () => {
       await dropped("measured.csv");
       await page.waitForSelector("dialog[open]");
       assert.equal(await page.locator('[data-kind="failed"]').count(), 0);
+      // Where nobody knows the bearing.
+      await page.selectOption("dialog select", "signal");
+      await page.click('dialog button:has-text("Open")');
+      for (const [id, value] of [
+        ["sampling-rate", "12000"],
+        ["unit", "g"],
+        ["speed-of-the-shaft", "1730"],
+      ])
+        await page.fill(`#ask-${id}`, value);
+      await page.selectOption("#ask-bearing", "unknown");
+      await judge();
+      await page.waitForSelector('#measured:not([hidden]):has-text("no bearing is given")');
     }));
 
   it("leaves what was typed of a measured signal when another channel is chosen", async () =>

@@ -17,6 +17,9 @@ fn ends_in(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
+/// Names of files that end so are meant as files, and the command writes none of them.
+const DOCUMENTS: [&str; 7] = ["doc", "docx", "htm", "md", "odt", "txt", "xlsx"];
+
 impl AnalyzeArgs {
     /// The file of `-o`, where it is one and no folder.
     fn html(&self) -> Option<&Path> {
@@ -48,6 +51,14 @@ impl AnalyzeArgs {
         if let Some(path) = self.folder().filter(|path| ends_in(path, "pdf")) {
             return usage(format!(
                 "-o {0}: expected a folder, or REPORT.html; a PDF is given by --pdf {0}",
+                path.display()
+            ));
+        }
+        if let Some(path) =
+            self.folder().filter(|path| DOCUMENTS.iter().any(|kind| ends_in(path, kind)) && !path.is_dir())
+        {
+            return usage(format!(
+                "-o {}: expected a folder, or a customer's report that ends in .html",
                 path.display()
             ));
         }
@@ -173,6 +184,7 @@ pub(super) fn judged(found: &Findings) -> Judged {
             bearing: &result.name,
             bearings: found.bearings.iter().map(of).collect(),
             speed: m.speed_words(),
+            alike: result.struck_alike(),
             size: result.size_words(),
         })
     })

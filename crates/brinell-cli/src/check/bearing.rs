@@ -1,6 +1,7 @@
 //! Of `brinell check`: a bearing.
 
 use crate::say::{plain_number, plural, say, short, significant};
+use brinell::bearing::KnownBearing;
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::defect::wrap;
@@ -43,6 +44,22 @@ pub(super) fn frequencies(s: &Scenario, d: &Derived) {
     for (name, value, meaning) in d.kinematics.table(d.top_speed / TAU) {
         say!("  {name:<7} {value:>10.3} Hz   {meaning}");
     }
+    if let Some(how) = estimated_elements(&s.bearing) {
+        say!("  of the rolling elements {how}, and these frequencies with them");
+    }
+}
+
+/// That the frequencies are those of a catalogue's estimate, where they are its own.
+fn estimated_elements(b: &Bearing) -> Option<String> {
+    let known = KnownBearing::find(b.preset.as_deref()?)?;
+    let geometry = match known {
+        KnownBearing::Catalogue(entry) => entry.geometry().ok()?,
+        KnownBearing::DataSet(_) => return None,
+    };
+    let is_its_own = geometry.rollers_per_row == b.rollers_per_row
+        && (1e3 * geometry.roller_diameter - b.roller_diameter_mm).abs() < 1e-6
+        && (1e3 * geometry.pitch_diameter - b.pitch_diameter_mm).abs() < 1e-6;
+    known.estimated().filter(|_| is_its_own)
 }
 
 pub(super) fn stiffnesses(s: &Scenario, d: &Derived) {
@@ -189,10 +206,11 @@ pub(super) fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone,
         return;
     }
     say!(
-        "  bearing stiffness       xx {}, yy {}, xy {} N/m",
+        "  bearing stiffness       xx {}, yy {}, xy {} N/m{}",
         short(zone.stiffness[0][0], 4),
         short(zone.stiffness[1][1], 4),
-        significant(zone.stiffness[0][1], zone.stiffness[0][0], 2)
+        significant(zone.stiffness[0][1], zone.stiffness[0][0], 2),
+        if s.defects.is_empty() { "" } else { " (with its damage)" }
     );
     say!(
         "  loaded ring's support   takes {} N of the {} N of load{}; the heaviest contact and the life are those of the rest",

@@ -25,6 +25,12 @@ pub fn calibration_verdict(of: &Outcome) -> Vec<String> {
     let base = format!("chi-square {} over {}, {freedom}{p_value}", short(chi, 3), plural(targets, "target"));
     let met = if of.is_met() { "met within their uncertainties" } else { "not met by the runs made" };
     all.push(format!("The targets are {met}: {base}."));
+    if of.fit.cut_off > 0 {
+        all.push(format!(
+            "The budget of {} runs ended {} of the searches: a larger one may find a lower chi-square, outside the intervals here.",
+            of.plan.settings.budget, of.fit.cut_off
+        ));
+    }
     let mut worst: Vec<&Met> = of.compared.iter().filter(|c| c.residual.abs() > LARGE).collect();
     worst.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
     for c in worst.iter().take(6) {
@@ -107,16 +113,11 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
         ));
     }
     if of.found.iter().any(Found::is_determined) {
-        let cut_off = match of.fit.cut_off {
-            0 => String::new(),
-            n => format!(
-                " The budget cut {n} of the searches downhill short: a larger budget may find a lower chi-square."
-            ),
-        };
-        all.push(format!(
-            "Intervals are about this best run.{cut_off} Whether the search ends elsewhere too, another --seed tells: where its intervals do not \
-             overlap these, neither holds."
-        ));
+        all.push(
+            "Intervals are about this best run. Whether the search ends elsewhere too, another --seed tells: where its intervals do not overlap \
+             these, neither holds."
+                .into(),
+        );
     }
     all
 }

@@ -28,6 +28,8 @@ pub struct JudgedOf<'a> {
     pub bearings: Vec<(String, String)>,
     /// The shaft's speed and where it comes from.
     pub speed: String,
+    /// Where no bearing was given, those that would have the lines found, in a sentence.
+    pub alike: Option<String>,
     /// The length of the damage in a sentence, where it was asked.
     pub size: Option<String>,
 }
@@ -90,7 +92,7 @@ impl Judged {
                 .map(|family| if family.name == "FTF" { Component::Cage } else { family.component })
                 .collect(),
             score: highest_score(a),
-            reason: reason(a),
+            reason: [Some(reason(a)), of.alike].into_iter().flatten().collect::<Vec<_>>().join(" "),
             whole: whole(of.findings.levels),
             is_ample: a.duration() * a.shaft >= 60.0 && m.rate >= 10_000.0,
             severity,

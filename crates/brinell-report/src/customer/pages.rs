@@ -221,22 +221,22 @@ fn caption(lead: &Judged) -> &'static str {
     let found = lead.report.markers.iter().any(|marker| marker.present);
     match (found, lead.verdict) {
         (true, Verdict::Damage) if lead.report.markers.iter().all(|marker| marker.sidebands.is_empty()) => {
-            "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence. Other peaks are the shaft's or come from elsewhere."
+            "Spectrum of the vibration's envelope: a peak is something that recurs so many times a second. Dashed: the rate that was found and its multiples; peaks there are the evidence. Other peaks are the shaft's or come from elsewhere."
         }
         (true, Verdict::Damage) => {
-            "How often the machine rings, from the envelope of the vibration. Dashed: the rate that was found and its multiples; peaks there are the evidence. Short marks above: sidebands. Other peaks are the shaft's or come from elsewhere."
+            "Spectrum of the vibration's envelope: a peak is something that recurs so many times a second. Dashed: the rate that was found and its multiples; peaks there are the evidence. Short marks above: sidebands. Other peaks are the shaft's or come from elsewhere."
         }
         (true, _) if lead.has_no_bearing() => {
-            "How often the machine rings, from the envelope of the vibration. Dashed: the rate of the strongest regular impacts and its multiples."
+            "Spectrum of the vibration's envelope: a peak is something that recurs so many times a second. Dashed: the rate of the strongest regular impacts and its multiples."
         }
         (true, _) => {
-            "How often the machine rings, from the envelope of the vibration. Dashed: the rate of the strongest regular impacts and its multiples, which is none of this bearing's."
+            "Spectrum of the vibration's envelope: a peak is something that recurs so many times a second. Dashed: the rate of the strongest regular impacts and its multiples, which is none of this bearing's."
         }
         (false, _) if lead.has_no_bearing() => {
-            "How often the machine rings, from the envelope of the vibration. No rate and its multiples stand out as damage of a race would make them."
+            "Spectrum of the vibration's envelope: a peak is something that recurs so many times a second. No rate and its multiples stand out as damage of a race would make them."
         }
         (false, _) => {
-            "How often the machine rings, from the envelope of the vibration. Marks above: where damage of each part would have its peaks. High peaks without a mark are the shaft's or the mains', or come from elsewhere."
+            "Spectrum of the vibration's envelope: a peak is something that recurs so many times a second. Marks above: where damage of each part would have its peaks. High peaks without a mark are the shaft's or the mains', or come from elsewhere."
         }
     }
 }

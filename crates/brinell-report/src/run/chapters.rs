@@ -247,11 +247,15 @@ pub fn passes(passes: Vec<Pass>) -> Chapter {
             false => pieces.push(Piece::Figure(figure.unseen())),
         }
     }
-    let words = "Effective contact length, contact stiffness and contact force of one rolling element over its angle from the defect’s centre. On a half-space the effective length is that of a healthy roller which would carry the same force at the same deformation: more than what the damage leaves.";
-    pieces.push(Piece::Note(words.into()));
+    pieces.push(Piece::Note(format!(
+        "Effective contact length, contact stiffness and contact force of one rolling element over its angle from the defect’s centre. {EFFECTIVE_LENGTH}"
+    )));
     pieces.extend(undrawn(count, "passes"));
     chapter(pieces)
 }
+
+/// What the effective contact length is, where it is more than what the damage leaves.
+pub(crate) const EFFECTIVE_LENGTH: &str = "On a half-space the effective length is that of a healthy roller which would carry the same force at the same deformation: more than what the damage leaves.";
 
 /// Contact force around the bearing, and along a roller where it is uneven there.
 pub fn load(rows: Vec<RowLoad>, along: Option<DamageCurves>) -> Chapter {

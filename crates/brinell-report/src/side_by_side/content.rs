@@ -118,7 +118,8 @@ fn lead(names: &[String], headlines: &[Headline], spread: &[Vec<Level>]) -> Stri
             return None;
         };
         let more: String = rest.iter().map(|(name, ratio)| format!(", in {name} {ratio}")).collect();
-        Some(format!("{} in {name} is {first}{more} times that in {}.", capital(words), names[0]))
+        let only = if spread.is_empty() { " (95 %, scatter only; by what is assumed: `compare --spread`)" } else { "" };
+        Some(format!("{} in {name} is {first}{more} times that in {}{only}.", capital(words), names[0]))
     });
     told.unwrap_or_default()
 }

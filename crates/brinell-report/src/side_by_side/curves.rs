@@ -4,6 +4,7 @@ use crate::data::{Along, Marker};
 use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
 use crate::page::Piece;
+use crate::run::chapters::EFFECTIVE_LENGTH;
 use crate::run::{RINGS_BEFORE, found_markers};
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
@@ -204,7 +205,7 @@ pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) 
     let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
     let missing = missing(passes.iter().filter(|pass| pass.is_none()).count());
     pieces.push(Piece::Note(format!(
-        "The pass with the largest contact force of each run, step by step of the solver.{missing}"
+        "The pass with the largest contact force of each run, step by step of the solver. {EFFECTIVE_LENGTH}{missing}"
     )));
     pieces
 }

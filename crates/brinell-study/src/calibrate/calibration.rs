@@ -6,6 +6,7 @@ use super::spacing::is_spacing;
 use super::{FitPlan, Unfit, fit};
 use crate::listener::Listener;
 use crate::runner::Ledger;
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
@@ -21,7 +22,7 @@ pub fn calibrate(
     listener: &dyn Listener,
 ) -> Result<Outcome, Unfinished> {
     let points = Points { load, plan };
-    let mut runs = Runs { points, ledger, threads, listener, done: 0, before: 0, failure: None };
+    let mut runs = Runs { points, ledger, threads, listener, own: HashSet::new(), before: 0, failure: None };
     let mut ask = |places: &[Vec<f64>]| runs.ask(places);
     let found = fit(plan.keys.len(), &plan.targets, plan.settings, &mut ask);
     if let Some(failure) = runs.failure.take() {

@@ -155,7 +155,7 @@ impl Outcome {
         let of_runs = of_results(fit.evaluations.iter().enumerate().filter_map(told), "run", |k| k + 1);
         let before = Beforehand::default().warnings(&best.scenario);
         let warnings = before.iter().map(ToString::to_string).chain(of_runs).collect();
-        let (done, before) = (runs.done, runs.before);
+        let (done, before) = (runs.own.len(), runs.before);
         let mut outcome =
             Self { plan: Arc::clone(plan), found: Vec::new(), compared, best, reasons, warnings, done, before, fit };
         outcome.found = (0..plan.keys.len()).map(|k| outcome.key(k)).collect();

@@ -12,6 +12,7 @@ use brinell::made_by::digest;
 use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
 use brinell::simulate::{Observer, Simulation};
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
@@ -105,8 +106,9 @@ pub(super) struct Runs<'a> {
     pub(super) ledger: Ledger,
     pub(super) threads: NonZeroUsize,
     pub(super) listener: &'a dyn Listener,
-    /// Runs of this call, and what it took from the journal.
-    pub(super) done: usize,
+    /// Fingerprints of the runs of this call.
+    pub(super) own: HashSet<String>,
+    /// How often this call took from the journal what an earlier one had run.
     pub(super) before: usize,
     /// What ended the campaign, other than the user.
     pub(super) failure: Option<RunnerError>,
@@ -119,13 +121,15 @@ impl Runs<'_> {
         let mut tasks: Vec<Task> = Vec::new();
         for task in wanted.iter().flatten() {
             if self.ledger.kept.row(&task.fingerprint).is_some() {
-                self.before += 1;
-                self.listener.before(1);
+                if !self.own.contains(&task.fingerprint) {
+                    self.before += 1;
+                    self.listener.before(1);
+                }
             } else if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
                 tasks.push(task.clone());
             }
         }
-        self.done += tasks.len();
+        self.own.extend(tasks.iter().map(|task| task.fingerprint.clone()));
         match run(&tasks, &self.points, &mut self.ledger, self.threads, self.listener) {
             Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),

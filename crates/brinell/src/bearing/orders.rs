@@ -197,6 +197,14 @@ impl KnownBearing {
         all
     }
 
+    /// That number or size of its elements was estimated, and how, where they were: its orders are then no closer than that.
+    pub fn estimated(self) -> Option<String> {
+        let Self::Catalogue(entry) = self else { return None };
+        let how = entry.estimates_orders()?;
+        let how = how.strip_prefix("Estimated: ").unwrap_or(how);
+        Some(format!("their number or size is estimated ({how}), and may differ between makers"))
+    }
+
     /// Its orders, and where they come from: also how they were estimated, where they were.
     ///
     /// # Errors
@@ -211,10 +219,7 @@ impl KnownBearing {
                     "{}: {}; {} elements a row of {diameter} mm on a pitch circle of {pitch} mm",
                     entry.name, entry.title, geometry.rollers_per_row
                 );
-                if let Some(how) = entry.estimates_orders() {
-                    let how = how.strip_prefix("Estimated: ").unwrap_or(how);
-                    words += &format!("; their number or size is estimated ({how}), and may differ between makers");
-                }
+                words.extend(self.estimated().map(|estimated| format!("; {estimated}")));
                 (orders(&geometry), words)
             }
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),

@@ -37,7 +37,7 @@ impl Checker<'_> {
         if b.rows > 0 && defect.row > b.rows {
             self.error(
                 &format!("defects.{i}.row"),
-                format!("the bearing has {} rows", b.rows),
+                format!("the bearing has {} row{}", b.rows, if b.rows == 1 { "" } else { "s" }),
                 format!("1 to {}", b.rows),
                 &["bearing.rows"],
             );
