@@ -1,8 +1,8 @@
 //! Of `brinell check`: a bearing.
 
 use crate::say::{plain_number, plural, say, short, significant};
-use brinell::bearing::KnownBearing;
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
+use brinell::bearing::estimated_elements;
 use brinell::bearing::rating::static_rating;
 use brinell::defect::wrap;
 use brinell::derived::Derived;
@@ -45,21 +45,8 @@ pub(super) fn frequencies(s: &Scenario, d: &Derived) {
         say!("  {name:<7} {value:>10.3} Hz   {meaning}");
     }
     if let Some(how) = estimated_elements(&s.bearing) {
-        say!("  of the rolling elements {how}, and these frequencies with them");
+        say!("  the rolling elements: {how}, and so may these frequencies");
     }
-}
-
-/// That the frequencies are those of a catalogue's estimate, where they are its own.
-fn estimated_elements(b: &Bearing) -> Option<String> {
-    let known = KnownBearing::find(b.preset.as_deref()?)?;
-    let geometry = match known {
-        KnownBearing::Catalogue(entry) => entry.geometry().ok()?,
-        KnownBearing::DataSet(_) => return None,
-    };
-    let is_its_own = geometry.rollers_per_row == b.rollers_per_row
-        && (1e3 * geometry.roller_diameter - b.roller_diameter_mm).abs() < 1e-6
-        && (1e3 * geometry.pitch_diameter - b.pitch_diameter_mm).abs() < 1e-6;
-    known.estimated().filter(|_| is_its_own)
 }
 
 pub(super) fn stiffnesses(s: &Scenario, d: &Derived) {

@@ -10,7 +10,7 @@ pub mod rating;
 
 pub use clearance::clearance_of;
 pub use kinematics::Kinematics;
-pub use orders::{KnownBearing, frequencies_of, orders_of};
+pub use orders::{KnownBearing, estimated_elements, frequencies_of, orders_of};
 
 /// Radius of a groove over the ball's diameter, where a scenario gives none.
 #[doc(hidden)]

@@ -67,6 +67,19 @@ pub enum KnownBearing {
     DataSet(&'static NamedBearing),
 }
 
+/// That number or size of a bearing's rolling elements is the catalogue's estimate, and how it was made; `None` where the elements are known, or
+/// others than the catalogue's.
+pub fn estimated_elements(b: &Bearing) -> Option<String> {
+    let known = KnownBearing::find(b.preset.as_deref()?)?;
+    let KnownBearing::Catalogue(entry) = known else { return None };
+    let geometry = entry.geometry().ok()?;
+    let same = |m: f64, mm: f64| (1e3 * m - mm).abs() < 1e-6;
+    let is_its_own = geometry.rollers_per_row == b.rollers_per_row
+        && same(geometry.roller_diameter, b.roller_diameter_mm)
+        && same(geometry.pitch_diameter, b.pitch_diameter_mm);
+    known.estimated().filter(|_| is_its_own)
+}
+
 impl KnownBearing {
     /// All of them, the catalogue first.
     pub fn all() -> impl Iterator<Item = Self> {
@@ -198,7 +211,7 @@ impl KnownBearing {
     }
 
     /// That number or size of its elements was estimated, and how, where they were: its orders are then no closer than that.
-    pub fn estimated(self) -> Option<String> {
+    fn estimated(self) -> Option<String> {
         let Self::Catalogue(entry) = self else { return None };
         let how = entry.estimates_orders()?;
         let how = how.strip_prefix("Estimated: ").unwrap_or(how);
