@@ -121,9 +121,10 @@ impl Runs<'_> {
         let mut tasks: Vec<Task> = Vec::new();
         for task in wanted.iter().flatten() {
             if self.ledger.kept.row(&task.fingerprint).is_some() {
+                // A place that is asked for again has a part of the budget, and is one more of what is over.
+                self.listener.before(1);
                 if !self.own.contains(&task.fingerprint) {
                     self.before += 1;
-                    self.listener.before(1);
                 }
             } else if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
                 tasks.push(task.clone());
